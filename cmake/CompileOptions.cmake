@@ -1,0 +1,35 @@
+# emmy_arithmetic: what keeps floating point reproducible. Linked PUBLIC.
+#
+# Compilers may contract a*b + c into one fused operation when the target has
+# it. The result is closer to the exact one but a different number, chosen
+# expression by expression: compensated summation and the exact strain
+# increment rely on the rounding that is written, and reference data must not
+# depend on the processor. The flag is part of emmy's interface because the
+# headers hold inline code: compiled without it elsewhere, the linker may keep
+# that copy and silently change the library too.
+add_library(emmy_arithmetic INTERFACE)
+target_compile_options(emmy_arithmetic INTERFACE -ffp-contract=off)
+
+# Value-changing optimisations remove the compensation altogether.
+string(TOUPPER "${CMAKE_BUILD_TYPE}" _emmy_build_type)
+foreach(_emmy_flags IN ITEMS CMAKE_CXX_FLAGS CMAKE_CXX_FLAGS_${_emmy_build_type})
+  if("${${_emmy_flags}}" MATCHES
+      "-Ofast|-ffast-math|-funsafe-math-optimizations|-fassociative-math|-freciprocal-math|-ffp-model=fast")
+    message(FATAL_ERROR
+      "${_emmy_flags} contains ${CMAKE_MATCH_0}: Emmy's conservation laws hold "
+      "to round-off only if the compiler keeps floating-point semantics.")
+  endif()
+endforeach()
+
+# emmy_warnings: for our own files only, linked PRIVATE.
+add_library(emmy_warnings INTERFACE)
+target_compile_options(emmy_warnings INTERFACE
+  -Wall -Wextra -Wpedantic
+  -Wshadow -Wconversion -Wsign-conversion -Wdouble-promotion
+  -Wnon-virtual-dtor -Woverloaded-virtual -Wcast-qual -Wold-style-cast
+  -Wformat=2 -Wimplicit-fallthrough -Wextra-semi -Wvla
+  $<$<CXX_COMPILER_ID:GNU>:-Wduplicated-cond -Wduplicated-branches -Wlogical-op>
+  # These three depend on what the optimiser happens to see; g++ 12 reports
+  # them inside fixed-size Eigen code that is correct.
+  $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized -Wno-array-bounds -Wno-stringop-overflow>
+  $<$<BOOL:${EMMY_WARNINGS_AS_ERRORS}>:-Werror>)
