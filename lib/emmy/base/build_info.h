@@ -1,0 +1,22 @@
+// How this library was built: version, compiler, flags.
+//
+// Written into every summary, because rounding errors belong to a build and
+// not only to a version.
+#ifndef EMMY_BASE_BUILD_INFO_H_
+#define EMMY_BASE_BUILD_INFO_H_
+
+#include <string>
+
+namespace emmy {
+
+struct BuildInfo {
+  std::string version;   // "0.1.0"
+  std::string compiler;  // "GNU 12.2.0"
+  std::string flags;     // "-O2 -DNDEBUG -ffp-contract=off"
+};
+
+BuildInfo GetBuildInfo();
+
+}  // namespace emmy
+
+#endif  // EMMY_BASE_BUILD_INFO_H_

@@ -1,0 +1,59 @@
+#include "emmy/diagnostics/invariant_monitor.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace emmy {
+namespace {
+
+void Record(const DoubleDouble3& initial, const DoubleDouble3& now,
+            MomentumRecord* record) {
+  record->final = now.ToDouble();
+  record->max_error =
+      std::max(record->max_error, Norm(now - initial).ToDouble());
+  record->scale = std::max(record->scale, record->final.norm());
+}
+
+}  // namespace
+
+ConservedQuantities QuantitiesConservedBy(const Model& model) {
+  const bool grounded =
+      std::any_of(model.lines().begin(), model.lines().end(),
+                  [](const ModelLine& line) {
+                    return line.ends[0].is_ground() || line.ends[1].is_ground();
+                  }) ||
+      std::any_of(model.constraints().begin(), model.constraints().end(),
+                  [](const ModelConstraint& c) { return c.to_ground; });
+  const bool free =
+      !grounded && model.gravity().isZero(0.0) && model.forces().empty();
+  return {.energy = true,
+          .momentum = free,
+          .angular_momentum = free && model.torques().empty()};
+}
+
+InvariantMonitor::InvariantMonitor(const Model& model, const State& initial)
+    : model_(&model), initial_(MeasureInvariants(model, initial)) {
+  const ConservedQuantities conserved = QuantitiesConservedBy(model);
+  energy_.conserved = conserved.energy;
+  momentum_.conserved = conserved.momentum;
+  angular_momentum_.conserved = conserved.angular_momentum;
+  energy_.initial = initial_.TotalEnergy().ToDouble();
+  momentum_.initial = initial_.momentum.ToDouble();
+  angular_momentum_.initial = initial_.angular_momentum.ToDouble();
+  Observe(initial);
+}
+
+void InvariantMonitor::Observe(const State& state) {
+  latest_ = MeasureInvariants(*model_, state);
+  const DoubleDouble total = latest_.TotalEnergy();
+  energy_.final = total.ToDouble();
+  energy_.max_error = std::max(
+      energy_.max_error, std::abs((total - initial_.TotalEnergy()).ToDouble()));
+  energy_.scale =
+      std::max(energy_.scale, std::abs(latest_.InternalEnergy().ToDouble()));
+  Record(initial_.momentum, latest_.momentum, &momentum_);
+  Record(initial_.angular_momentum, latest_.angular_momentum,
+         &angular_momentum_);
+}
+
+}  // namespace emmy

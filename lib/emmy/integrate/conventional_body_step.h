@@ -1,0 +1,49 @@
+// One energy-momentum step of a free conventional body: (CRB-3), (CRB-4).
+//
+// Unknown: ΔW, body axes. W̄ = W₀ + ½ ΔW, Θ = Δt W̄:
+//   J ΔW + Δt W̄ × J W̄ = 0                                         (CRB-4)
+// by Newton's method with the exact Jacobian
+//   J + ½ Δt (Hat(W̄) J − Hat(J W̄))                                (CRB-5)
+// to round-off; then the quaternion advances by its increment (ROT-5).
+
+#ifndef EMMY_INTEGRATE_CONVENTIONAL_BODY_STEP_H_
+#define EMMY_INTEGRATE_CONVENTIONAL_BODY_STEP_H_
+
+#include "emmy/base/types.h"
+#include "emmy/element/conventional_rigid_body.h"
+#include "emmy/integrate/ancf_body_step.h"
+#include "emmy/numerics/newton.h"
+
+namespace emmy {
+
+struct ConventionalBodyStart {
+  Vector4d quaternion;
+  Vector4d quaternion_compensation;
+  Vector3d angular_velocity;  // W₀, body axes.
+  Vector3d angular_velocity_compensation;
+};
+
+struct ConventionalBodyIncrement {
+  Vector4d quaternion = Vector4d::Zero();
+  Vector3d angular_velocity = Vector3d::Zero();  // ΔW
+};
+
+class ConventionalBodyStep {
+ public:
+  ConventionalBodyStep(const ConventionalRigidBody& body, double time_step,
+                       const NewtonOptions& options)
+      : body_(body), time_step_(time_step), options_(options) {}
+
+  BodyStepResult Solve(const ConventionalBodyStart& start,
+                       const Vector3d& increment_guess,
+                       ConventionalBodyIncrement* increment) const;
+
+ private:
+  ConventionalRigidBody body_;
+  double time_step_;
+  NewtonOptions options_;
+};
+
+}  // namespace emmy
+
+#endif  // EMMY_INTEGRATE_CONVENTIONAL_BODY_STEP_H_

@@ -1,0 +1,554 @@
+#include "emmy/integrate/conventional_structure_step.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "absl/status/status.h"
+#include "absl/strings/str_cat.h"
+#include "emmy/numerics/rotation.h"
+
+namespace emmy {
+namespace {
+
+constexpr double kUnitRoundoff = std::numeric_limits<double>::epsilon() / 2.0;
+
+// (1 − Hat(a))⁻¹ = (1 + a aᵀ + Hat(a)) / (1 + a·a).
+Matrix3d InverseOneMinusHat(const Vector3d& a) {
+  return (Matrix3d::Identity() + a * a.transpose() + Hat(a)) /
+         (1.0 + a.squaredNorm());
+}
+
+}  // namespace
+
+absl::StatusOr<std::optional<ConventionalStructureStep>>
+ConventionalStructureStep::Create(const Model& model, double time_step,
+                                  const NewtonOptions& options) {
+  ConventionalStructureStep step(model, time_step, options);
+  absl::Status status = step.Gather();
+  if (!status.ok()) return status;
+  if (step.bodies_.empty()) {
+    return std::optional<ConventionalStructureStep>();
+  }
+  return std::optional<ConventionalStructureStep>(std::move(step));
+}
+
+int ConventionalStructureStep::LocalBody(size_t index) {
+  int& local = local_body_[index];
+  if (local < 0) {
+    local = static_cast<int>(bodies_.size());
+    Body& body = bodies_.emplace_back();
+    body.index = index;
+    body.body = &model_->bodies()[index];
+  }
+  return local;
+}
+
+absl::StatusOr<int> ConventionalStructureStep::LocalNode(int vector) {
+  const auto v = static_cast<size_t>(vector);
+  for (const ModelBody& body : model_->bodies()) {
+    if (body.ancf() != nullptr && vector >= body.first_vector &&
+        vector < body.first_vector + 4) {
+      return absl::UnimplementedError(absl::StrCat(
+          "/rigid_bodies: body \"", body.name,
+          "\" of formulation \"ancf\" is joined to a conventional body by "
+          "trusses or springs; structures that mix the two are not supported "
+          "yet"));
+    }
+  }
+  int& local = local_node_[v];
+  if (local < 0) {
+    local = static_cast<int>(nodes_.size());
+    nodes_.emplace_back().vector = &model_->vectors()[v];
+  }
+  return local;
+}
+
+absl::StatusOr<ConventionalStructureStep::End>
+ConventionalStructureStep::MakeEnd(const Point& point) {
+  End end;
+  if (point.conventional_body.has_value()) {
+    end.body = LocalBody(*point.conventional_body);
+    end.xi = point.xi;
+  } else if (!point.terms.empty()) {
+    absl::StatusOr<int> node = LocalNode(point.terms.front().vector);
+    if (!node.ok()) return node.status();
+    end.node = *node;
+  } else {
+    end.start = point.ground;
+  }
+  return end;
+}
+
+absl::Status ConventionalStructureStep::Gather() {
+  local_body_.assign(model_->bodies().size(), -1);
+  local_node_.assign(model_->vectors().size(), -1);
+  absl::Status status = GatherLines();
+  if (!status.ok()) return status;
+  GatherMasses();
+  status = GatherLoads();
+  if (!status.ok()) return status;
+  const Index size = 6 * static_cast<Index>(bodies_.size()) +
+                     3 * static_cast<Index>(nodes_.size());
+  for (VectorXd* v : {&unknown_, &residual_, &magnitude_, &correction_}) {
+    v->setZero(size);
+  }
+  tangent_.setZero(size, size);
+  factor_ = Eigen::PartialPivLU<MatrixXd>(size);
+  return absl::OkStatus();
+}
+
+// Lines at conventional bodies, then all that hang together with them.
+absl::Status ConventionalStructureStep::GatherLines() {
+  std::vector<bool> taken(model_->lines().size(), false);
+  bool found = true;
+  while (found) {
+    found = false;
+    for (size_t i = 0; i < model_->lines().size(); ++i) {
+      const ModelLine& line = model_->lines()[i];
+      const auto is_local = [this](const Point& end) {
+        return !end.terms.empty() &&
+               local_node_[static_cast<size_t>(end.terms.front().vector)] >= 0;
+      };
+      if (taken[i] || !(line.has_conventional_end() || is_local(line.ends[0]) ||
+                        is_local(line.ends[1]))) {
+        continue;
+      }
+      taken[i] = true;
+      found = true;
+      Line& local = lines_.emplace_back();
+      local.line = &line;
+      for (size_t e = 0; e < 2; ++e) {
+        absl::StatusOr<End> end = MakeEnd(line.ends[e]);
+        if (!end.ok()) return end.status();
+        local.ends[e] = *end;
+        local.ends[e].velocity_offset = line.end_velocity_offset[e];
+      }
+    }
+  }
+  return absl::OkStatus();
+}
+
+void ConventionalStructureStep::GatherMasses() {
+  for (size_t v = 0; v < model_->mass().size(); ++v) {
+    if (local_node_[v] < 0) continue;
+    for (const MassEntry& entry : model_->mass()[v]) {
+      masses_.push_back({local_node_[v],
+                         local_node_[static_cast<size_t>(entry.column)],
+                         entry.mass});
+    }
+  }
+}
+
+absl::Status ConventionalStructureStep::GatherLoads() {
+  for (const ModelForce& force : model_->forces()) {
+    const bool at_node =
+        !force.point.terms.empty() &&
+        local_node_[static_cast<size_t>(force.point.terms.front().vector)] >= 0;
+    if (!force.point.conventional_body.has_value() && !at_node) continue;
+    absl::StatusOr<End> end = MakeEnd(force.point);
+    if (!end.ok()) return end.status();
+    forces_.push_back({*end, force.force});
+  }
+  for (const ModelTorque& torque : model_->torques()) {
+    if (model_->bodies()[torque.body].conventional() == nullptr) continue;
+    torques_.push_back({LocalBody(torque.body), torque.torque});
+  }
+  return absl::OkStatus();
+}
+
+void ConventionalStructureStep::LoadEnd(const State& state, End* end) const {
+  if (end->body >= 0) {
+    const Body& body = bodies_[static_cast<size_t>(end->body)];
+    end->start = body.x0;
+    end->rest = body.x0_compensation;
+  } else if (end->node >= 0) {
+    const Node& node = nodes_[static_cast<size_t>(end->node)];
+    end->start = node.q0;
+    end->rest = node.q0_compensation;
+  } else {
+    end->rest.setZero();
+  }
+  if (end->velocity_offset >= 0) {
+    end->v0 = state.end_velocity.value.segment<3>(end->velocity_offset);
+    end->v0_compensation =
+        state.end_velocity.compensation.segment<3>(end->velocity_offset);
+  }
+}
+
+void ConventionalStructureStep::Load(const State& state) {
+  for (size_t i = 0; i < bodies_.size(); ++i) {
+    Body& body = bodies_[i];
+    const Index q = body.body->position_offset;
+    const Index w = body.body->velocity_offset;
+    body.x0 = state.position.value.segment<3>(q);
+    body.x0_compensation = state.position.compensation.segment<3>(q);
+    body.quaternion = state.position.value.segment<4>(q + 3);
+    body.rotation =
+        QuaternionToMatrix(Vector4d(state.position.value.segment<4>(q + 3)));
+    body.v0 = state.velocity.value.segment<3>(w);
+    body.v0_compensation = state.velocity.compensation.segment<3>(w);
+    body.w0 = state.velocity.value.segment<3>(w + 3);
+    body.w0_compensation = state.velocity.compensation.segment<3>(w + 3);
+    unknown_.segment<6>(BodyRow(static_cast<int>(i))) =
+        time_step_ * state.acceleration_guess.segment<6>(w);
+  }
+  for (size_t i = 0; i < nodes_.size(); ++i) {
+    Node& node = nodes_[i];
+    const auto [q, w, moment] = *node.vector;
+    node.q0 = state.position.value.segment<3>(q);
+    node.q0_compensation = state.position.compensation.segment<3>(q);
+    node.w0 = state.velocity.value.segment<3>(w);
+    node.w0_compensation = state.velocity.compensation.segment<3>(w);
+    unknown_.segment<3>(NodeRow(static_cast<int>(i))) =
+        time_step_ * state.acceleration_guess.segment<3>(w);
+  }
+  for (Line& line : lines_) {
+    line.strain = state.strain.value(line.line->strain_offset);
+    line.strain_compensation =
+        state.strain.compensation(line.line->strain_offset);
+    for (End& end : line.ends) LoadEnd(state, &end);
+  }
+  for (Force& force : forces_) LoadEnd(state, &force.end);
+}
+
+void ConventionalStructureStep::EvaluateBody(size_t index) {
+  Body& body = bodies_[index];
+  const Index row = BodyRow(static_cast<int>(index));
+  const Vector3d dv = unknown_.segment<3>(row);
+  const Vector3d dw = unknown_.segment<3>(row + 3);
+  body.mean_velocity = body.v0 + (body.v0_compensation + 0.5 * dv);
+  body.mean_omega = body.w0 + (body.w0_compensation + 0.5 * dw);
+  body.increment = time_step_ * body.mean_velocity;
+  const Vector3d half_turn = (0.5 * time_step_) * body.mean_omega;
+  body.mean_rotation = body.rotation * InverseOneMinusHat(half_turn);
+  body.inverse_mean_rotation =
+      (Matrix3d::Identity() - Hat(half_turn)) * body.rotation.transpose();
+  body.torque.setZero();
+  const ConventionalRigidBody& element = *body.body->conventional();
+  const Vector3d inertial = element.mass() * dv;
+  const Vector3d weight = (time_step_ * element.mass()) * model_->gravity();
+  const Vector3d spin = element.tensor() * dw;
+  const Vector3d gyroscopic =
+      time_step_ * body.mean_omega.cross(element.tensor() * body.mean_omega);
+  residual_.segment<3>(row) = inertial - weight;
+  residual_.segment<3>(row + 3) = spin + gyroscopic;
+  // By terms: the sums may cancel, their rounding does not.
+  magnitude_.segment<3>(row) = inertial.cwiseAbs() + weight.cwiseAbs();
+  magnitude_.segment<3>(row + 3) = spin.cwiseAbs() + gyroscopic.cwiseAbs();
+}
+
+void ConventionalStructureStep::EvaluateEnd(End* end) const {
+  if (end->body >= 0) {
+    const Body& body = bodies_[static_cast<size_t>(end->body)];
+    end->arm = body.mean_rotation * end->xi;
+    end->mean_rate =
+        body.mean_velocity + (body.rotation * body.mean_omega).cross(end->arm);
+    end->increment = time_step_ * end->mean_rate;
+  } else if (end->node >= 0) {
+    const Node& node = nodes_[static_cast<size_t>(end->node)];
+    end->arm.setZero();
+    end->mean_rate = node.mean_rate;
+    end->increment = node.increment;
+    end->rate_increment = unknown_.segment<3>(NodeRow(end->node));
+  } else {
+    end->arm.setZero();
+    end->mean_rate.setZero();
+    end->increment.setZero();
+    end->rate_increment.setZero();
+  }
+  if (end->velocity_offset >= 0) {
+    end->rate_increment =
+        2.0 * ((end->mean_rate - end->v0) - end->v0_compensation);
+  }
+}
+
+void ConventionalStructureStep::AddImpulse(const End& end,
+                                           const Vector3d& impulse) {
+  const double size = impulse.cwiseAbs().maxCoeff();
+  if (end.body >= 0) {
+    const Index row = BodyRow(end.body);
+    residual_.segment<3>(row) += impulse;
+    magnitude_.segment<3>(row).array() += size;
+    magnitude_.segment<3>(row + 3).array() += size * end.arm.norm();
+    bodies_[static_cast<size_t>(end.body)].torque += end.arm.cross(impulse);
+  } else if (end.node >= 0) {
+    residual_.segment<3>(NodeRow(end.node)) += impulse;
+    magnitude_.segment<3>(NodeRow(end.node)).array() += size;
+  }
+}
+
+void ConventionalStructureStep::EvaluateLine(Line* line) {
+  auto& [first, second] = line->ends;
+  for (End& end : line->ends) EvaluateEnd(&end);
+  // Means of x̄ + R ξ: the arm is already R̄ ξ, so that only x̄ moves on.
+  const auto travel = [this](const End& end) -> Vector3d {
+    if (end.body >= 0) {
+      return 0.5 * bodies_[static_cast<size_t>(end.body)].increment;
+    }
+    return 0.5 * end.increment;
+  };
+  line->mean = (second.start - first.start) +
+               ((second.arm - first.arm) + ((second.rest - first.rest) +
+                                            (travel(second) - travel(first))));
+  const Vector3d change = second.increment - first.increment;
+  line->response = line->line->element.Respond(
+      line->strain, line->strain_compensation, line->mean.dot(change));
+  const Vector3d force =
+      (time_step_ * line->response.tension_factor) * line->mean;
+  AddImpulse(first, -force);
+  AddImpulse(second, force);
+  const double mass = line->line->mass;
+  if (mass == 0.0 || !line->line->has_conventional_end()) return;
+  for (size_t e = 0; e < 2; ++e) {
+    const End& end = line->ends[e];
+    const End& other = line->ends[1 - e];
+    Vector3d momentum = (mass / 6.0) * other.rate_increment;
+    if (end.body >= 0) {
+      momentum += (mass / 3.0) * end.rate_increment -
+                  (0.5 * mass * time_step_) * model_->gravity();
+    }
+    AddImpulse(end, momentum);
+  }
+}
+
+void ConventionalStructureStep::Evaluate() {
+  magnitude_.setZero();
+  for (size_t i = 0; i < nodes_.size(); ++i) {
+    Node& node = nodes_[i];
+    const Index row = NodeRow(static_cast<int>(i));
+    node.mean_rate =
+        node.w0 + (node.w0_compensation + 0.5 * unknown_.segment<3>(row));
+    node.increment = time_step_ * node.mean_rate;
+    residual_.segment<3>(row) =
+        -(time_step_ * node.vector->first_moment) * model_->gravity();
+    magnitude_.segment<3>(row) = residual_.segment<3>(row).cwiseAbs();
+  }
+  for (const Mass& mass : masses_) {
+    const Vector3d momentum =
+        mass.mass * unknown_.segment<3>(NodeRow(mass.column));
+    residual_.segment<3>(NodeRow(mass.row)) += momentum;
+    magnitude_.segment<3>(NodeRow(mass.row)) += momentum.cwiseAbs();
+  }
+  for (size_t i = 0; i < bodies_.size(); ++i) EvaluateBody(i);
+  for (Line& line : lines_) EvaluateLine(&line);
+  for (Force& force : forces_) {
+    EvaluateEnd(&force.end);
+    AddImpulse(force.end, -time_step_ * force.force);
+  }
+  for (const Torque& torque : torques_) {
+    bodies_[static_cast<size_t>(torque.body)].torque -=
+        time_step_ * torque.torque;
+  }
+  for (size_t i = 0; i < bodies_.size(); ++i) {
+    residual_.segment<3>(BodyRow(static_cast<int>(i)) + 3) +=
+        bodies_[i].inverse_mean_rotation * bodies_[i].torque;
+  }
+}
+
+// Adds (∂Δx_first)ᵀ S (∂Δx_second) / (¼ Δt²), with the body's rows in its axes.
+void ConventionalStructureStep::AddToTangent(const End& first,
+                                             const End& second,
+                                             const Matrix3d& stiffness) {
+  const auto blocks = [this](const End& end) {
+    // Start row and the 3 × n matrix of ∂v_c.
+    Eigen::Matrix<double, 3, 6> map = Eigen::Matrix<double, 3, 6>::Zero();
+    map.leftCols<3>().setIdentity();
+    if (end.body >= 0) {
+      const Body& body = bodies_[static_cast<size_t>(end.body)];
+      map.rightCols<3>() = -Hat(end.arm) * body.rotation;
+      return std::make_pair(std::make_pair(BodyRow(end.body), Index{6}), map);
+    }
+    const Index size = end.node >= 0 ? 3 : 0;
+    return std::make_pair(std::make_pair(NodeRow(end.node), size), map);
+  };
+  const auto [rows, left] = blocks(first);
+  const auto [columns, right] = blocks(second);
+  if (rows.second == 0 || columns.second == 0) return;
+  const Eigen::Matrix<double, 6, 6> product =
+      left.transpose() * stiffness * right;
+  tangent_.block(rows.first, columns.first, rows.second, columns.second) +=
+      product.topLeftCorner(rows.second, columns.second);
+}
+
+void ConventionalStructureStep::FormTangent() {
+  tangent_.setZero();
+  for (size_t i = 0; i < bodies_.size(); ++i) {
+    const Index row = BodyRow(static_cast<int>(i));
+    const ConventionalRigidBody& element = *bodies_[i].body->conventional();
+    const Vector3d momentum = element.tensor() * bodies_[i].mean_omega;
+    tangent_.block<3, 3>(row, row) = element.mass() * Matrix3d::Identity();
+    tangent_.block<3, 3>(row + 3, row + 3) =
+        element.tensor() +
+        (0.5 * time_step_) *
+            (Hat(bodies_[i].mean_omega) * element.tensor() - Hat(momentum));
+  }
+  for (const Mass& mass : masses_) {
+    tangent_.block<3, 3>(NodeRow(mass.row), NodeRow(mass.column)) +=
+        mass.mass * Matrix3d::Identity();
+  }
+  const double quarter = 0.25 * time_step_ * time_step_;
+  for (const Line& line : lines_) {
+    const Vector3d& d = line.mean;
+    const Matrix3d stiffness =
+        quarter * (line.response.tension_factor * Matrix3d::Identity() +
+                   2.0 * line.response.derivative * d * d.transpose());
+    for (size_t a = 0; a < 2; ++a) {
+      for (size_t b = 0; b < 2; ++b) {
+        AddToTangent(line.ends[a], line.ends[b],
+                     a == b ? stiffness : Matrix3d(-stiffness));
+        if (!line.line->has_conventional_end()) continue;
+        if (a == b && line.ends[a].body < 0) continue;  // In masses_.
+        const double mass = line.line->mass / (a == b ? 3.0 : 6.0);
+        AddToTangent(line.ends[a], line.ends[b], mass * Matrix3d::Identity());
+      }
+    }
+  }
+  factor_.compute(tangent_);
+}
+
+// Σ r·w̄, which is the energy a residual puts in (EM-7).
+double ConventionalStructureStep::Work() const {
+  double work = 0.0;
+  for (size_t i = 0; i < bodies_.size(); ++i) {
+    const Index row = BodyRow(static_cast<int>(i));
+    work += bodies_[i].mean_velocity.dot(residual_.segment<3>(row)) +
+            bodies_[i].mean_omega.dot(residual_.segment<3>(row + 3));
+  }
+  for (size_t i = 0; i < nodes_.size(); ++i) {
+    work += nodes_[i].mean_rate.dot(
+        residual_.segment<3>(NodeRow(static_cast<int>(i))));
+  }
+  return work;
+}
+
+// The net moment of the residual about the origin.
+Vector3d ConventionalStructureStep::Moment() const {
+  Vector3d moment = Vector3d::Zero();
+  for (size_t i = 0; i < bodies_.size(); ++i) {
+    const Body& body = bodies_[i];
+    const Index row = BodyRow(static_cast<int>(i));
+    const Vector3d centre = body.x0 + 0.5 * body.increment;
+    moment += centre.cross(residual_.segment<3>(row)) +
+              body.mean_rotation * residual_.segment<3>(row + 3);
+  }
+  for (size_t i = 0; i < nodes_.size(); ++i) {
+    const Node& node = nodes_[i];
+    const Vector3d position = node.q0 + 0.5 * node.increment;
+    moment +=
+        position.cross(residual_.segment<3>(NodeRow(static_cast<int>(i))));
+  }
+  return moment;
+}
+
+BodyStepResult ConventionalStructureStep::Iterate() {
+  BodyStepResult result;
+  StagnationMonitor rate_monitor;
+  StagnationMonitor work_monitor;
+  StagnationMonitor moment_monitor;
+  double previous = std::numeric_limits<double>::infinity();
+  for (int i = 1; i <= options_.max_iterations; ++i) {
+    result.iterations = i;
+    Evaluate();
+    // Anew in every step, since the effective masses turn with the bodies;
+    // and within a step where it no longer serves.
+    constexpr double kSlow = 0.3;
+    if (i == 1 || result.correction > kSlow * previous) FormTangent();
+    previous = i == 1 ? previous : result.correction;
+    double rate = 0.0;
+    double size = 0.0;
+    for (const Body& body : bodies_) {
+      rate = std::max({rate, body.mean_velocity.cwiseAbs().maxCoeff(),
+                       body.mean_omega.cwiseAbs().maxCoeff()});
+      size = std::max(size, body.x0.norm());
+    }
+    for (const Node& node : nodes_) {
+      rate = std::max(rate, node.mean_rate.cwiseAbs().maxCoeff());
+      size = std::max(size, node.q0.norm());
+    }
+    const double work = std::abs(Work());
+    const double moment = Moment().cwiseAbs().maxCoeff();
+    correction_ = factor_.solve(residual_);
+    unknown_ -= correction_;
+    result.correction = correction_.cwiseAbs().maxCoeff();
+    if (!std::isfinite(result.correction)) {
+      result.termination = Termination::kNonFinite;
+      return result;
+    }
+    if (options_.tolerance.has_value()) {
+      if (result.correction <= *options_.tolerance * rate) {
+        result.termination = Termination::kConverged;
+        return result;
+      }
+      continue;
+    }
+    const double residual_floor = kUnitRoundoff * magnitude_.norm();
+    const bool rate_done =
+        rate_monitor.Update(result.correction, 4.0 * kUnitRoundoff * rate);
+    const bool work_done = work_monitor.Update(work, residual_floor * rate);
+    const bool moment_done =
+        moment_monitor.Update(moment, residual_floor * std::max(1.0, size));
+    if (rate_done && work_done && moment_done) {
+      result.termination = Termination::kConverged;
+      return result;
+    }
+  }
+  return result;
+}
+
+BodyStepResult ConventionalStructureStep::Solve(const State& state) {
+  Load(state);
+  BodyStepResult result = Iterate();
+  if (result.termination != Termination::kConverged) {
+    const int iterations = result.iterations;
+    unknown_.setZero();
+    result = Iterate();
+    result.iterations += iterations;
+  }
+  Evaluate();
+  return result;
+}
+
+void ConventionalStructureStep::Commit(State& state) const {
+  double work = 0.0;
+  for (const Force& force : forces_) {
+    work += force.force.dot(force.end.increment);
+  }
+  for (const Torque& torque : torques_) {
+    const Body& body = bodies_[static_cast<size_t>(torque.body)];
+    work += time_step_ * torque.torque.dot(body.rotation * body.mean_omega);
+  }
+  state.load_work.Add(work);
+  for (size_t i = 0; i < bodies_.size(); ++i) {
+    const Body& body = bodies_[i];
+    const Index q = body.body->position_offset;
+    const Index w = body.body->velocity_offset;
+    const auto change = unknown_.segment<6>(BodyRow(static_cast<int>(i)));
+    state.position.Add(q, body.increment);
+    state.position.Add(q + 3,
+                       CayleyQuaternionIncrement(body.quaternion,
+                                                 time_step_ * body.mean_omega));
+    state.velocity.Add(w, change);
+    state.acceleration_guess.segment<6>(w) = change / time_step_;
+  }
+  for (size_t i = 0; i < nodes_.size(); ++i) {
+    const auto [q, w, moment] = *nodes_[i].vector;
+    const auto change = unknown_.segment<3>(NodeRow(static_cast<int>(i)));
+    state.position.Add(q, nodes_[i].increment);
+    state.velocity.Add(w, change);
+    state.acceleration_guess.segment<3>(w) = change / time_step_;
+  }
+  for (const Line& line : lines_) {
+    const Index s = line.line->strain_offset;
+    AddCompensated(line.response.increment, state.strain.value(s),
+                   state.strain.compensation(s));
+    for (const End& end : line.ends) {
+      if (end.velocity_offset >= 0) {
+        state.end_velocity.Add(end.velocity_offset, end.rate_increment);
+      }
+    }
+  }
+}
+
+}  // namespace emmy

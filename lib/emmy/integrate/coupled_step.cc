@@ -1,0 +1,428 @@
+#include "emmy/integrate/coupled_step.h"
+
+#include <Eigen/Geometry>
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "absl/strings/str_cat.h"
+#include "emmy/integrate/exact_tangent.h"
+#include "emmy/numerics/rotation.h"
+
+namespace emmy {
+namespace {
+
+constexpr double kUnitRoundoff = std::numeric_limits<double>::epsilon() / 2.0;
+
+double MaxAbs(const Matrix3Xd& m) {
+  return m.size() > 0 ? m.cwiseAbs().maxCoeff() : 0.0;
+}
+
+}  // namespace
+
+CoupledStep::CoupledStep(const Structure& structure, double time_step,
+                         const CoupledStepOptions& options)
+    : structure_(&structure),
+      time_step_(time_step),
+      options_(options),
+      tangent_(structure, time_step, options.method) {
+  const Eigen::Index vectors = structure.num_vectors();
+  const Eigen::Index constraints = structure.num_constraints();
+  const auto lines = static_cast<Eigen::Index>(structure.lines.size());
+  const auto strains =
+      static_cast<Eigen::Index>(structure.strain_offsets.size());
+  for (Matrix3Xd* m :
+       {&q0_, &q0_compensation_, &w0_, &w0_compensation_, &dw_, &mean_rate_,
+        &dq_, &mean_, &end_, &residual_, &correction_}) {
+    m->setZero(3, vectors);
+  }
+  magnitude_.setZero(vectors);
+  for (Matrix3Xd* m : {&impulse_, &constraint_rate_, &impulse_correction_}) {
+    m->setZero(3, constraints);
+  }
+  for (Matrix3Xd* m : {&line_start_, &line_mean_, &line_end_}) {
+    m->setZero(3, lines);
+  }
+  line_tension_.setZero(lines);
+  line_derivative_.setZero(lines);
+  for (VectorXd* v : {&strain0_, &strain0_compensation_, &strain_increment_}) {
+    v->setZero(strains);
+  }
+}
+
+void CoupledStep::Load(const State& state) {
+  for (Eigen::Index v = 0; v < structure_->num_vectors(); ++v) {
+    const auto [q, w, moment] = structure_->vectors[static_cast<size_t>(v)];
+    q0_.col(v) = state.position.value.segment<3>(q);
+    q0_compensation_.col(v) = state.position.compensation.segment<3>(q);
+    w0_.col(v) = state.velocity.value.segment<3>(w);
+    w0_compensation_.col(v) = state.velocity.compensation.segment<3>(w);
+    dw_.col(v) = time_step_ * state.acceleration_guess.segment<3>(w);
+  }
+  for (Eigen::Index s = 0; s < strain0_.size(); ++s) {
+    const Eigen::Index offset =
+        structure_->strain_offsets[static_cast<size_t>(s)];
+    strain0_(s) = state.strain.value(offset);
+    strain0_compensation_(s) = state.strain.compensation(offset);
+  }
+  for (Eigen::Index c = 0; c < structure_->num_constraints(); ++c) {
+    const size_t index = structure_->constraints[static_cast<size_t>(c)].index;
+    impulse_.col(c) = time_step_ * state.multiplier_guess.segment<3>(
+                                       3 * static_cast<Eigen::Index>(index));
+  }
+  // From the values alone: neighbours' difference is exact or nearly so,
+  // while a difference of means would carry the rounding of large positions.
+  for (size_t i = 0; i < structure_->lines.size(); ++i) {
+    const Structure::Line& line = structure_->lines[i];
+    Vector3d d = line.line->difference.ground;
+    for (const WeightedVector& term : line.terms) {
+      d += term.weight * q0_.col(term.vector);
+    }
+    line_start_.col(static_cast<Eigen::Index>(i)) = d;
+  }
+}
+
+void CoupledStep::EvaluateBodies() {
+  for (const Structure::Body& body : structure_->bodies) {
+    const AncfRigidBody& ancf = *body.body->ancf();
+    const Matrix3d mean = mean_.middleCols<3>(body.first + 1);
+    const Matrix3d increment = dq_.middleCols<3>(body.first + 1);
+    const Vector6d strain_increment =
+        AncfRigidBody::StrainIncrement(mean, increment);
+    strain_increment_.segment<6>(body.first_strain) = strain_increment;
+    const Vector6d mean_strain =
+        strain0_.segment<6>(body.first_strain) +
+        (strain0_compensation_.segment<6>(body.first_strain) +
+         0.5 * strain_increment);
+    const Matrix3d impulse = time_step_ * ancf.InternalForce(mean, mean_strain);
+    residual_.middleCols<3>(body.first + 1) += impulse;
+    magnitude_.segment<3>(body.first + 1) +=
+        impulse.cwiseAbs().colwise().maxCoeff().transpose();
+  }
+}
+
+void CoupledStep::EvaluateLines() {
+  for (size_t i = 0; i < structure_->lines.size(); ++i) {
+    const Structure::Line& line = structure_->lines[i];
+    const auto column = static_cast<Eigen::Index>(i);
+    Vector3d change = Vector3d::Zero();  // Δd
+    Vector3d rest = Vector3d::Zero();    // Compensations of d₀.
+    for (const WeightedVector& term : line.terms) {
+      change += term.weight * dq_.col(term.vector);
+      rest += term.weight * q0_compensation_.col(term.vector);
+    }
+    const Vector3d d = line_start_.col(column) + (rest + 0.5 * change);
+    const LineElement::Response response = line.line->element.Respond(
+        strain0_(line.strain), strain0_compensation_(line.strain),
+        d.dot(change));
+    strain_increment_(line.strain) = response.increment;
+    line_mean_.col(column) = d;
+    line_end_.col(column) = d + 0.5 * change;
+    line_tension_(column) = response.tension_factor;
+    line_derivative_(column) = response.derivative;
+    const Vector3d impulse = (time_step_ * response.tension_factor) * d;
+    const double size = impulse.cwiseAbs().maxCoeff();
+    for (const WeightedVector& term : line.terms) {
+      residual_.col(term.vector) += term.weight * impulse;
+      magnitude_(term.vector) += std::abs(term.weight) * size;
+    }
+  }
+}
+
+void CoupledStep::EvaluateLoads() {
+  for (const Structure::Force& force : structure_->forces) {
+    for (const WeightedVector& term : force.terms) {
+      residual_.col(term.vector) -= (time_step_ * term.weight) * force.force;
+    }
+  }
+  for (const Structure::Torque& torque : structure_->torques) {
+    const Matrix3d duals =
+        mean_.middleCols<3>(torque.first + 1).inverse().transpose();
+    for (int i = 0; i < 3; ++i) {
+      residual_.col(torque.first + 1 + i) -=
+          (0.5 * time_step_) * torque.torque.cross(duals.col(i));
+    }
+  }
+}
+
+void CoupledStep::EvaluateConstraints() {
+  for (size_t i = 0; i < structure_->constraints.size(); ++i) {
+    const auto column = static_cast<Eigen::Index>(i);
+    const Vector3d impulse = impulse_.col(column);
+    const double size = impulse.cwiseAbs().maxCoeff();
+    Vector3d rate = Vector3d::Zero();
+    Vector3d rest = Vector3d::Zero();
+    for (const WeightedVector& term : structure_->constraints[i].terms) {
+      residual_.col(term.vector) += term.weight * impulse;
+      magnitude_(term.vector) += std::abs(term.weight) * size;
+      rate += term.weight * w0_.col(term.vector);
+      rest += term.weight *
+              (w0_compensation_.col(term.vector) + 0.5 * dw_.col(term.vector));
+    }
+    constraint_rate_.col(column) = rate + rest;
+  }
+}
+
+// (EM-1) and the residual of (EM-9) at Δw and Δt λ.
+void CoupledStep::Evaluate() {
+  mean_rate_.noalias() = w0_ + (w0_compensation_ + 0.5 * dw_);
+  dq_.noalias() = time_step_ * mean_rate_;
+  mean_.noalias() = q0_ + (q0_compensation_ + 0.5 * dq_);
+  residual_.setZero();
+  for (const Structure::Mass& mass : structure_->masses) {
+    residual_.col(mass.row) += mass.mass * dw_.col(mass.column);
+    if (mass.row != mass.column) {
+      residual_.col(mass.column) += mass.mass * dw_.col(mass.row);
+    }
+  }
+  // By terms: inertia and weight may cancel, their rounding does not.
+  magnitude_ = residual_.cwiseAbs().colwise().maxCoeff().transpose();
+  residual_.noalias() -= time_step_ * structure_->gravity_force;
+  EvaluateBodies();
+  EvaluateLines();
+  EvaluateLoads();
+  EvaluateConstraints();
+}
+
+CoupledStep::Floors CoupledStep::RoundingFloors() const {
+  const double rate = MaxAbs(mean_rate_);
+  double force = 0.0;
+  double moment = 0.0;
+  double work = 0.0;
+  // Independent roundings add as the root of the sum of squares.
+  for (Eigen::Index v = 0; v < magnitude_.size(); ++v) {
+    const double size = magnitude_(v) * magnitude_(v);
+    force += size;
+    moment += size * mean_.col(v).squaredNorm();
+    work += size * mean_rate_.col(v).squaredNorm();
+  }
+  // A strain increment is rounded by about u |q̄| |Δq|, which a correction of
+  // 4 u |w| undoes.
+  return {4.0 * kUnitRoundoff * rate, kUnitRoundoff * std::sqrt(force),
+          kUnitRoundoff * std::sqrt(moment), kUnitRoundoff * std::sqrt(work)};
+}
+
+bool CoupledStep::Renew() {
+  renew_ = false;
+  return tangent_.Factorize(Point());
+}
+
+// Solves (EM-10), or with the exact Jacobian; false if singular.
+bool CoupledStep::SolveCorrection(bool exact) {
+  constraint_rate_ *= 2.0;
+  if (!exact) {
+    tangent_.Solve(residual_, constraint_rate_, &correction_,
+                   &impulse_correction_);
+    return true;
+  }
+  const VectorXd mean_strain =
+      strain0_ + (strain0_compensation_ + 0.5 * strain_increment_);
+  return SolveExactTangent(*structure_, time_step_,
+                           {mean_, end_, mean_strain, line_mean_, line_end_,
+                            line_tension_, line_derivative_},
+                           residual_, constraint_rate_, &correction_,
+                           &impulse_correction_);
+}
+
+BodyStepResult CoupledStep::Iterate(bool exact) {
+  BodyStepResult result;
+  // What the laws forbid to remain is judged apart from the corrections: the
+  // net force, the net moment and the work of the residual (EM-7).
+  StagnationMonitor rate_monitor;
+  StagnationMonitor force_monitor;
+  StagnationMonitor moment_monitor;
+  StagnationMonitor work_monitor;
+  double previous = std::numeric_limits<double>::infinity();
+  int slow = 0;
+  bool renewed = false;
+  for (int i = 1; i <= options_.newton.max_iterations; ++i) {
+    result.iterations = i;
+    Evaluate();
+    end_.noalias() = mean_ + 0.5 * dq_;
+    if (!exact) {
+      tangent_.FollowBodies(mean_, end_);
+      if (renew_ || options_.always_factorize) {
+        renewed = true;
+        if (!Renew()) {
+          result.termination = Termination::kSingularTangent;
+          return result;
+        }
+      } else if (i == 1) {
+        tangent_.FollowStructure(mean_);
+      }
+    }
+    Vector3d force = Vector3d::Zero();
+    Vector3d moment = Vector3d::Zero();
+    for (Eigen::Index v = 0; v < residual_.cols(); ++v) {
+      if (structure_->translates[static_cast<size_t>(v)]) {
+        force += residual_.col(v);
+      }
+      moment += mean_.col(v).cross(residual_.col(v));
+    }
+    const double work = std::abs(mean_rate_.cwiseProduct(residual_).sum());
+    const Floors floors = RoundingFloors();
+
+    if (!SolveCorrection(exact)) {
+      result.termination = Termination::kSingularTangent;
+      return result;
+    }
+    dw_ -= correction_;
+    impulse_ -= impulse_correction_;
+    result.correction = MaxAbs(correction_);
+    if (!std::isfinite(result.correction)) {
+      result.termination = Termination::kNonFinite;
+      return result;
+    }
+    if (options_.newton.tolerance.has_value()) {
+      if (result.correction <=
+          *options_.newton.tolerance * MaxAbs(mean_rate_)) {
+        result.termination = Termination::kConverged;
+        return result;
+      }
+    } else {
+      const bool rate_done =
+          rate_monitor.Update(result.correction, floors.rate);
+      const bool force_done =
+          force_monitor.Update(force.cwiseAbs().maxCoeff(), floors.force);
+      const bool moment_done =
+          moment_monitor.Update(moment.cwiseAbs().maxCoeff(), floors.moment);
+      const bool work_done = work_monitor.Update(work, floors.work);
+      if (rate_done && force_done && moment_done && work_done) {
+        // Slow: renewed before the next step, where it costs no iteration.
+        constexpr int kManyIterations = 12;
+        if (i > kManyIterations || slow > 1) renew_ = true;
+        result.termination = Termination::kConverged;
+        return result;
+      }
+    }
+    constexpr double kSlow = 0.5;
+    const bool far = result.correction > 1e3 * floors.rate;
+    if (far && i > 1 && result.correction > kSlow * previous) {
+      ++slow;
+      if (!renewed || slow > 3) {
+        renew_ = true;
+        slow = 0;
+      }
+    }
+    previous = result.correction;
+  }
+  return result;
+}
+
+// Δw of a rigid turn of the whole by the Cayley map of Δt ω about its centre
+// of mass: no strain, whatever the step.                            (EM-8)
+void CoupledStep::GuessRigidTurn() {
+  double mass = 0.0;
+  Vector3d centre = Vector3d::Zero();
+  Vector3d velocity = Vector3d::Zero();
+  for (Eigen::Index v = 0; v < q0_.cols(); ++v) {
+    const double moment =
+        structure_->vectors[static_cast<size_t>(v)].first_moment;
+    mass += moment;
+    centre += moment * q0_.col(v);
+    velocity += moment * w0_.col(v);
+  }
+  centre /= mass;
+  velocity /= mass;
+  const auto translates = [this](int v) {
+    return structure_->translates[static_cast<size_t>(v)] ? 1.0 : 0.0;
+  };
+  const auto arm = [&](int v) -> Vector3d {
+    return q0_.col(v) - translates(v) * centre;
+  };
+  const auto rate = [&](int v) -> Vector3d {
+    return w0_.col(v) - translates(v) * velocity;
+  };
+  Vector3d momentum = Vector3d::Zero();
+  Matrix3d inertia = Matrix3d::Zero();
+  const auto add = [&](int a, int b, double m) {
+    momentum += m * arm(a).cross(rate(b));
+    inertia += m * (arm(a).dot(arm(b)) * Matrix3d::Identity() -
+                    arm(a) * arm(b).transpose());
+  };
+  for (const Structure::Mass& entry : structure_->masses) {
+    add(entry.row, entry.column, entry.mass);
+    if (entry.row != entry.column) add(entry.column, entry.row, entry.mass);
+  }
+  const Matrix3d turn =
+      CayleyRotation(time_step_ * inertia.inverse() * momentum);
+  for (int v = 0; v < structure_->num_vectors(); ++v) {
+    dw_.col(v) = 2.0 * ((turn * arm(v) - arm(v)) / time_step_ - rate(v));
+  }
+}
+
+BodyStepResult CoupledStep::Solve(const State& state) {
+  Load(state);
+  BodyStepResult result = Iterate(/*exact=*/false);
+  int iterations = result.iterations;
+  // Once more from a start without strain, then with the exact Jacobian.
+  for (const bool exact : {false, true}) {
+    if (result.termination == Termination::kConverged) break;
+    Load(state);
+    GuessRigidTurn();
+    renew_ = true;
+    result = Iterate(exact);
+    iterations += result.iterations;
+  }
+  result.iterations = iterations;
+  if (result.termination != Termination::kConverged) renew_ = true;
+  Evaluate();  // Δq and Δε of the final Δw.
+  return result;
+}
+
+void CoupledStep::Commit(State& state) const {
+  double work = 0.0;
+  for (const Structure::Force& force : structure_->forces) {
+    for (const WeightedVector& term : force.terms) {
+      work += term.weight * force.force.dot(dq_.col(term.vector));
+    }
+  }
+  for (const Structure::Torque& torque : structure_->torques) {
+    const Matrix3d duals =
+        mean_.middleCols<3>(torque.first + 1).inverse().transpose();
+    for (int i = 0; i < 3; ++i) {
+      work +=
+          0.5 *
+          torque.torque.cross(duals.col(i)).dot(dq_.col(torque.first + 1 + i));
+    }
+  }
+  state.load_work.Add(work);
+  for (Eigen::Index v = 0; v < structure_->num_vectors(); ++v) {
+    const auto [q, w, moment] = structure_->vectors[static_cast<size_t>(v)];
+    state.position.Add(q, dq_.col(v));
+    state.velocity.Add(w, dw_.col(v));
+    state.acceleration_guess.segment<3>(w) = dw_.col(v) / time_step_;
+  }
+  for (Eigen::Index s = 0; s < strain_increment_.size(); ++s) {
+    const Eigen::Index offset =
+        structure_->strain_offsets[static_cast<size_t>(s)];
+    AddCompensated(strain_increment_(s), state.strain.value(offset),
+                   state.strain.compensation(offset));
+  }
+  for (Eigen::Index c = 0; c < structure_->num_constraints(); ++c) {
+    const size_t index = structure_->constraints[static_cast<size_t>(c)].index;
+    state.multiplier_guess.segment<3>(3 * static_cast<Eigen::Index>(index)) =
+        impulse_.col(c) / time_step_;
+  }
+}
+
+std::string CoupledStep::WorstPart() const {
+  Eigen::Index worst = 0;
+  residual_.cwiseAbs().colwise().maxCoeff().maxCoeff(&worst);
+  for (const Structure::Body& body : structure_->bodies) {
+    if (worst >= body.first && worst < body.first + 4) {
+      return absl::StrCat("body \"", body.body->name, "\"");
+    }
+  }
+  for (const Structure::Line& line : structure_->lines) {
+    for (const WeightedVector& term : line.terms) {
+      if (term.vector == worst) {
+        return absl::StrCat("an end of \"", line.line->name, "\"");
+      }
+    }
+  }
+  return "a node";
+}
+
+}  // namespace emmy

@@ -1,0 +1,100 @@
+// One energy-momentum step of a structure: ANCF bodies, nodes, trusses,
+// cables and springs, tied by constraints, under loads.
+//
+// Unknown: the velocity increments Δw of the vector coordinates and, for
+// constraints G q = const, the joint forces λ [N]:
+//   Δq = Δt (w₀ + ½ Δw),  q̄ = q₀ + ½ Δq                            (EM-1)
+//   M Δw + Δt (f̄ − F̄ + Gᵀ λ) = 0,  G w̄ = 0                         (EM-9)
+// with the work-exact forces of (ANCF-6) and (LINE-2). G is constant, so that
+// G Δq = 0 makes Gᵀ λ do no work and exert no net force or moment: all laws
+// stay exact whatever λ is. A torque τ acts on the gradient vectors of a body
+// as fᵢ = ½ τ × ēⁱ, ēⁱ the dual vectors, so that Σ ēᵢ × fᵢ = τ.      (EM-12)
+//
+// The residual is exact and iterated to round-off; corrections come from a
+// kept symmetric tangent, [K, Gᵀ; G, −κ] [δw; δ(Δt λ)] = [r; 2 G w̄]   (EM-10)
+// (see coupled_tangent.h), renewed only when convergence slows. κ > 0 is
+// small, so that nearly dependent joints do no harm.
+
+#ifndef EMMY_INTEGRATE_COUPLED_STEP_H_
+#define EMMY_INTEGRATE_COUPLED_STEP_H_
+
+#include <string>
+
+#include "emmy/base/types.h"
+#include "emmy/integrate/ancf_body_step.h"
+#include "emmy/integrate/coupled_tangent.h"
+#include "emmy/integrate/structure.h"
+#include "emmy/model/state.h"
+#include "emmy/numerics/newton.h"
+#include "emmy/numerics/symmetric_factor.h"
+
+namespace emmy {
+
+struct CoupledStepOptions {
+  NewtonOptions newton;
+  SymmetricFactor::Method method = SymmetricFactor::Method::kAutomatic;
+  // For comparison: a fresh factorisation in every iteration.
+  bool always_factorize = false;
+};
+
+class CoupledStep {
+ public:
+  // `structure` must outlive the step.
+  CoupledStep(const Structure& structure, double time_step,
+              const CoupledStepOptions& options);
+
+  // Solves (EM-9); `state` is not changed.
+  BodyStepResult Solve(const State& state);
+
+  // Advances `state` by the last solution, except its time.
+  void Commit(State& state) const;
+
+  // The body, line or node with the largest residual in the last iteration.
+  std::string WorstPart() const;
+
+  int num_factorizations() const { return tangent_.num_factorizations(); }
+
+ private:
+  // Sizes that rounding alone gives to what must vanish.
+  struct Floors {
+    double rate, force, moment, work;
+  };
+
+  void Load(const State& state);
+  void Evaluate();
+  void EvaluateBodies();
+  void EvaluateLines();
+  void EvaluateLoads();
+  void EvaluateConstraints();
+  bool Renew();
+  bool SolveCorrection(bool exact);
+  BodyStepResult Iterate(bool exact);
+  void GuessRigidTurn();
+  Floors RoundingFloors() const;
+  TangentPoint Point() const {
+    return {mean_, line_mean_, line_tension_, line_derivative_};
+  }
+
+  const Structure* structure_;
+  double time_step_;
+  CoupledStepOptions options_;
+  CoupledTangent tangent_;
+  bool renew_ = true;
+
+  // The start of the step.
+  Matrix3Xd q0_, q0_compensation_, w0_, w0_compensation_;
+  VectorXd strain0_, strain0_compensation_;
+  Matrix3Xd line_start_;  // d₀ of each line, from the values alone.
+  // The iterate, and what follows from it.
+  Matrix3Xd dw_, mean_rate_, dq_, mean_, end_, residual_;
+  VectorXd magnitude_;  // Sum of the sizes of a residual's terms.
+  Matrix3Xd impulse_, constraint_rate_;  // Δt λ [N s], G w̄.
+  Matrix3Xd line_mean_, line_end_;       // d̄, d₁
+  VectorXd line_tension_, line_derivative_, strain_increment_;
+  // Corrections.
+  Matrix3Xd correction_, impulse_correction_;
+};
+
+}  // namespace emmy
+
+#endif  // EMMY_INTEGRATE_COUPLED_STEP_H_

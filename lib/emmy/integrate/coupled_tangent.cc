@@ -1,0 +1,276 @@
+#include "emmy/integrate/coupled_tangent.h"
+
+#include <Eigen/Geometry>
+#include <Eigen/LU>
+#include <Eigen/SVD>
+#include <algorithm>
+#include <utility>
+
+#include "emmy/element/ancf_rigid_body.h"
+
+namespace emmy {
+namespace {
+
+// The blocks (i, j), i ≥ j, of a body's gradient vectors.
+constexpr std::array<std::pair<int, int>, 6> kGradientBlocks = {
+    {{0, 0}, {1, 0}, {1, 1}, {2, 0}, {2, 1}, {2, 2}}};
+
+}  // namespace
+
+SymmetricBlockMatrix CoupledTangent::MakeMatrix(const Structure& structure) {
+  std::vector<std::pair<int, int>> pairs;
+  for (const Structure::Mass& mass : structure.masses) {
+    pairs.emplace_back(mass.row, mass.column);
+  }
+  for (const Structure::Body& body : structure.bodies) {
+    for (const auto& [i, j] : kGradientBlocks) {
+      pairs.emplace_back(body.first + 1 + i, body.first + 1 + j);
+    }
+  }
+  for (const Structure::Line& line : structure.lines) {
+    for (const WeightedVector& a : line.terms) {
+      for (const WeightedVector& b : line.terms) {
+        pairs.emplace_back(a.vector, b.vector);
+      }
+    }
+  }
+  for (int c = 0; c < structure.num_constraints(); ++c) {
+    const int row = structure.num_vectors() + c;
+    pairs.emplace_back(row, row);
+    for (const WeightedVector& term :
+         structure.constraints[static_cast<size_t>(c)].terms) {
+      pairs.emplace_back(row, term.vector);
+    }
+  }
+  return SymmetricBlockMatrix(
+      structure.num_vectors() + structure.num_constraints(), std::move(pairs));
+}
+
+CoupledTangent::CoupledTangent(const Structure& structure, double time_step,
+                               SymmetricFactor::Method method)
+    : structure_(&structure),
+      time_step_(time_step),
+      matrix_(MakeMatrix(structure)),
+      factor_(matrix_, structure.constraints.empty(), method) {
+  FindSlots();
+  const auto num_vectors = static_cast<size_t>(structure.num_vectors());
+  rotation_.assign(num_vectors, Matrix3d::Identity());
+  left_ = rotation_;
+  right_ = rotation_;
+  in_body_.assign(num_vectors, false);
+  for (const Structure::Body& body : structure.bodies) {
+    for (int a = 0; a < 4; ++a) {
+      in_body_[static_cast<size_t>(body.first + a)] = true;
+    }
+  }
+  const Eigen::Index size = 3 * matrix_.num_blocks();
+  right_side_.setZero(size);
+  solution_.setZero(size);
+  // Small against G K⁻¹ Gᵀ ~ 1/mass, large against its rounding.
+  double largest_mass = 0.0;
+  for (const Structure::Mass& mass : structure.masses) {
+    largest_mass = std::max(largest_mass, mass.mass);
+  }
+  constexpr double kShift = 1e-8;
+  shift_ = largest_mass > 0.0 ? kShift / largest_mass : 0.0;
+}
+
+void CoupledTangent::FindSlots() {
+  for (const Structure::Mass& mass : structure_->masses) {
+    mass_slots_.push_back(matrix_.Find(mass.row, mass.column));
+  }
+  for (const Structure::Body& body : structure_->bodies) {
+    std::array<SymmetricBlockMatrix::Slot, 6>& slots =
+        body_slots_.emplace_back();
+    for (size_t k = 0; k < kGradientBlocks.size(); ++k) {
+      slots[k] = matrix_.Find(body.first + 1 + kGradientBlocks[k].first,
+                              body.first + 1 + kGradientBlocks[k].second);
+    }
+  }
+  for (const Structure::Line& line : structure_->lines) {
+    for (const WeightedVector& a : line.terms) {
+      for (const WeightedVector& b : line.terms) {
+        if (a.vector >= b.vector) {
+          line_slots_.push_back(matrix_.Find(a.vector, b.vector));
+        }
+      }
+    }
+  }
+  for (int c = 0; c < structure_->num_constraints(); ++c) {
+    const int row = structure_->num_vectors() + c;
+    constraint_slots_.push_back(matrix_.Find(row, row));
+    for (const WeightedVector& term :
+         structure_->constraints[static_cast<size_t>(c)].terms) {
+      constraint_slots_.push_back(matrix_.Find(row, term.vector));
+    }
+  }
+}
+
+// (EM-6): along ēⱼ the penalty terms do not depend on the attitude.
+void CoupledTangent::AddBodies() {
+  const double quarter = 0.25 * time_step_ * time_step_;
+  for (size_t i = 0; i < structure_->bodies.size(); ++i) {
+    const Vector6d c =
+        quarter * structure_->bodies[i].body->ancf()->penalty_stiffness();
+    std::array<Matrix3d, 6> blocks;
+    for (Matrix3d& block : blocks) block.setZero();
+    // Of kGradientBlocks: where (row, column) is.
+    const auto at = [&blocks](int row, int column) -> Matrix3d& {
+      return blocks[static_cast<size_t>(row * (row + 1) / 2 + column)];
+    };
+    for (int k = 0; k < 3; ++k) {
+      at(k, k)(k, k) += c(k);
+      const auto [m, n] = AncfRigidBody::kShearPairs[static_cast<size_t>(k)];
+      at(m, m)(n, n) += c(3 + k);
+      at(n, n)(m, m) += c(3 + k);
+      const int high = std::max(m, n);
+      const int low = std::min(m, n);
+      at(high, low)(low, high) += c(3 + k);
+    }
+    for (size_t k = 0; k < 6; ++k) {
+      matrix_.Add(body_slots_[i][k], blocks[k]);
+    }
+  }
+}
+
+void CoupledTangent::AddLines(const TangentPoint& point) {
+  const double quarter = 0.25 * time_step_ * time_step_;
+  size_t slot = 0;
+  for (size_t i = 0; i < structure_->lines.size(); ++i) {
+    const auto column = static_cast<Eigen::Index>(i);
+    const Vector3d d = point.line_mean.col(column);
+    const double tension = std::max(0.0, point.line_tension(column));
+    const Matrix3d stiffness =
+        quarter * (tension * Matrix3d::Identity() +
+                   2.0 * point.line_derivative(column) * d * d.transpose());
+    const std::vector<WeightedVector>& terms = structure_->lines[i].terms;
+    for (const WeightedVector& a : terms) {
+      const Matrix3d& left = rotation_[static_cast<size_t>(a.vector)];
+      for (const WeightedVector& b : terms) {
+        if (a.vector < b.vector) continue;
+        const Matrix3d& right = rotation_[static_cast<size_t>(b.vector)];
+        matrix_.Add(line_slots_[slot++],
+                    a.weight * b.weight * left.transpose() * stiffness * right);
+      }
+    }
+  }
+}
+
+void CoupledTangent::Assemble(const TangentPoint& point) {
+  matrix_.SetZero();
+  for (size_t i = 0; i < structure_->masses.size(); ++i) {
+    const Structure::Mass& mass = structure_->masses[i];
+    matrix_.Add(mass_slots_[i],
+                mass.mass *
+                    rotation_[static_cast<size_t>(mass.row)].transpose() *
+                    rotation_[static_cast<size_t>(mass.column)]);
+  }
+  AddBodies();
+  AddLines(point);
+  size_t slot = 0;
+  for (const Structure::Constraint& constraint : structure_->constraints) {
+    matrix_.Add(constraint_slots_[slot++], -shift_ * Matrix3d::Identity());
+    for (const WeightedVector& term : constraint.terms) {
+      matrix_.Add(constraint_slots_[slot++],
+                  term.weight * rotation_[static_cast<size_t>(term.vector)]);
+    }
+  }
+}
+
+bool CoupledTangent::Factorize(const TangentPoint& point) {
+  turn_.setIdentity();
+  for (int v = 0; v < structure_->num_vectors(); ++v) {
+    if (!in_body_[static_cast<size_t>(v)]) SetRotation(v, turn_);
+  }
+  Assemble(point);
+  ++num_factorizations_;
+  is_factorized_ = factor_.Factorize(matrix_);
+  positions_ = point.mean_positions;
+  return is_factorized_;
+}
+
+void CoupledTangent::SetRotation(int vector, const Matrix3d& rotation) {
+  const auto v = static_cast<size_t>(vector);
+  rotation_[v] = rotation;
+  left_[v] = rotation.transpose();
+  right_[v] = rotation;
+}
+
+// The mass-weighted rotation that best takes the positions of the
+// factorisation to those of now (Kabsch, Acta Cryst. A32 (1976)).
+void CoupledTangent::FollowStructure(const Matrix3Xd& mean_positions) {
+  double mass = 0.0;
+  Vector3d centre = Vector3d::Zero();
+  Vector3d old_centre = Vector3d::Zero();
+  for (int v = 0; v < structure_->num_vectors(); ++v) {
+    const double weight =
+        structure_->vectors[static_cast<size_t>(v)].first_moment;
+    mass += weight;
+    centre += weight * mean_positions.col(v);
+    old_centre += weight * positions_.col(v);
+  }
+  Matrix3d moment = Matrix3d::Zero();
+  for (const Structure::Mass& entry : structure_->masses) {
+    moment += entry.mass * mean_positions.col(entry.row) *
+              positions_.col(entry.column).transpose();
+    if (entry.row != entry.column) {
+      moment += entry.mass * mean_positions.col(entry.column) *
+                positions_.col(entry.row).transpose();
+    }
+  }
+  if (mass > 0.0) moment -= centre * old_centre.transpose() / mass;
+  const Eigen::JacobiSVD<Matrix3d> svd(
+      moment, Eigen::ComputeFullU | Eigen::ComputeFullV);
+  Vector3d signs = Vector3d::Ones();
+  if ((svd.matrixU() * svd.matrixV().transpose()).determinant() < 0.0) {
+    signs(2) = -1.0;
+  }
+  turn_ = svd.matrixU() * signs.asDiagonal() * svd.matrixV().transpose();
+  for (int v = 0; v < structure_->num_vectors(); ++v) {
+    if (!in_body_[static_cast<size_t>(v)]) SetRotation(v, turn_);
+  }
+}
+
+void CoupledTangent::FollowBodies(const Matrix3Xd& mean_positions,
+                                  const Matrix3Xd& end_positions) {
+  for (const Structure::Body& body : structure_->bodies) {
+    const Matrix3d mean = mean_positions.middleCols<3>(body.first + 1);
+    const Matrix3d end = end_positions.middleCols<3>(body.first + 1);
+    // Orthonormal by Gram and Schmidt.
+    Matrix3d rotation;
+    rotation.col(0) = mean.col(0).normalized();
+    rotation.col(2) = mean.col(0).cross(mean.col(1)).normalized();
+    rotation.col(1) = rotation.col(2).cross(rotation.col(0));
+    const Matrix3d left = mean.inverse();
+    const Matrix3d right = end.inverse().transpose();
+    for (int a = 0; a < 4; ++a) {
+      SetRotation(body.first + a, rotation);
+      if (a == 0) continue;
+      left_[static_cast<size_t>(body.first + a)] = left;
+      right_[static_cast<size_t>(body.first + a)] = right;
+    }
+  }
+}
+
+void CoupledTangent::Solve(const Matrix3Xd& residual,
+                           const Matrix3Xd& constraint_residual,
+                           Matrix3Xd* correction,
+                           Matrix3Xd* multiplier_correction) {
+  const Eigen::Index vectors = structure_->num_vectors();
+  const Eigen::Index constraints = structure_->num_constraints();
+  Eigen::Map<Matrix3Xd> right_side(right_side_.data(), 3,
+                                   vectors + constraints);
+  for (Eigen::Index v = 0; v < vectors; ++v) {
+    right_side.col(v) = left_[static_cast<size_t>(v)] * residual.col(v);
+  }
+  right_side.rightCols(constraints) = constraint_residual;
+  factor_.Solve(right_side_, &solution_);
+  const Eigen::Map<const Matrix3Xd> solution(solution_.data(), 3,
+                                             vectors + constraints);
+  for (Eigen::Index v = 0; v < vectors; ++v) {
+    correction->col(v) = right_[static_cast<size_t>(v)] * solution.col(v);
+  }
+  *multiplier_correction = solution.rightCols(constraints);
+}
+
+}  // namespace emmy

@@ -1,0 +1,40 @@
+// The time loop: steps, and an observer after each.
+
+#ifndef EMMY_INTEGRATE_SIMULATE_H_
+#define EMMY_INTEGRATE_SIMULATE_H_
+
+#include <cstdint>
+#include <functional>
+#include <string>
+
+#include "emmy/integrate/energy_momentum.h"
+#include "emmy/model/state.h"
+#include "emmy/numerics/newton.h"
+
+namespace emmy {
+
+// Called after every accepted step; returning false ends the run.
+using Observer = std::function<bool(const State&, const StepReport&)>;
+
+struct [[nodiscard]] SimulationReport {
+  Termination termination = Termination::kConverged;  // Of the last step.
+  bool stopped_by_observer = false;
+  int64_t steps = 0;  // Accepted steps of this run.
+  int64_t total_iterations = 0;
+  int max_iterations = 0;
+  std::string message;  // Of the step that failed; `state` is before it.
+
+  bool ok() const { return termination == Termination::kConverged; }
+  double mean_iterations() const {
+    return steps > 0 ? static_cast<double>(total_iterations) /
+                           static_cast<double>(steps)
+                     : 0.0;
+  }
+};
+
+SimulationReport Simulate(EnergyMomentumIntegrator& integrator, State& state,
+                          int64_t num_steps, const Observer& observer);
+
+}  // namespace emmy
+
+#endif  // EMMY_INTEGRATE_SIMULATE_H_

@@ -1,0 +1,155 @@
+// What does not change during a run: bodies, nodes, elements, joints, loads,
+// constant masses and the layout of the state.
+
+#ifndef EMMY_MODEL_MODEL_H_
+#define EMMY_MODEL_MODEL_H_
+
+#include <array>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "emmy/base/types.h"
+#include "emmy/element/ancf_rigid_body.h"
+#include "emmy/element/conventional_rigid_body.h"
+#include "emmy/element/line_element.h"
+#include "emmy/model/point.h"
+
+namespace emmy {
+
+// One of the 3-vectors that ANCF bodies (x̄, e₁, e₂, e₃) and free nodes (x)
+// have for coordinates, and where it is in the state.
+struct VectorCoordinate {
+  Eigen::Index position_offset = 0;
+  Eigen::Index velocity_offset = 0;
+  // Σ over material points of (mass × weight): the linear momentum of the
+  // model is Σ first_moment · w, its gravity force first_moment · g [kg].
+  double first_moment = 0.0;
+};
+
+// One rigid body of the model and where its part of the state begins.
+struct ModelBody {
+  std::string name;
+  std::variant<AncfRigidBody, ConventionalRigidBody> element;
+  Eigen::Index position_offset = 0;
+  Eigen::Index velocity_offset = 0;
+  Eigen::Index strain_offset = 0;
+  int first_vector = -1;  // Of x̄, e₁, e₂, e₃; ANCF only.
+
+  const AncfRigidBody* ancf() const {
+    return std::get_if<AncfRigidBody>(&element);
+  }
+  const ConventionalRigidBody* conventional() const {
+    return std::get_if<ConventionalRigidBody>(&element);
+  }
+  const RigidBodyInertia& inertia() const {
+    return ancf() != nullptr ? ancf()->inertia() : conventional()->inertia();
+  }
+};
+
+struct ModelNode {
+  std::string name;
+  Point point;  // Itself, or what it is tied to.
+};
+
+// A truss, cable or spring between two points.
+struct ModelLine {
+  std::string name;
+  LineElement element;
+  std::array<Point, 2> ends;
+  Point difference;  // d = x₂ − x₁ as one linear function; linear ends only.
+  double mass = 0.0;  // ρ A L, consistent: m/6 [2 1; 1 2] ⊗ 1 [kg].
+  Eigen::Index strain_offset = 0;
+  // Of the velocity that an end on a conventional body has of its own, in
+  // State::end_velocity; −1 for other ends and for elements without mass.
+  std::array<Eigen::Index, 2> end_velocity_offset = {-1, -1};
+
+  bool has_conventional_end() const {
+    return ends[0].conventional_body.has_value() ||
+           ends[1].conventional_body.has_value();
+  }
+};
+
+// Two points that stay together: Σ weight · q is constant (rows of G).
+struct ModelConstraint {
+  std::string name;  // JSON pointer, for messages.
+  std::vector<WeightedVector> terms;
+  bool to_ground = false;  // One of the points is fixed in space.
+};
+
+// A constant force at a point; a constant torque on a body.
+struct ModelForce {
+  Point point;
+  Vector3d force = Vector3d::Zero();  // [N]
+};
+struct ModelTorque {
+  size_t body = 0;
+  Vector3d torque = Vector3d::Zero();  // [N m]
+};
+
+// Mass between two vector coordinates (both orders are stored) [kg, kg m,
+// kg m²]; M ⊗ 1 is the constant mass matrix of the linear coordinates.
+struct MassEntry {
+  int column = 0;
+  double mass = 0.0;
+};
+
+// Mass between a point fixed in space and a vector coordinate, from an element
+// with consistent mass: counts in the angular momentum only.
+struct GroundMass {
+  Vector3d position = Vector3d::Zero();
+  int vector = 0;
+  double mass = 0.0;
+};
+
+// Immutable after BuildModel (model_builder.h).
+class Model {
+ public:
+  const Vector3d& gravity() const { return gravity_; }  // [m/s²]
+  const std::vector<ModelBody>& bodies() const { return bodies_; }
+  const std::vector<ModelNode>& nodes() const { return nodes_; }
+  // Trusses and cables, then springs.
+  const std::vector<ModelLine>& lines() const { return lines_; }
+  const std::vector<ModelConstraint>& constraints() const {
+    return constraints_;
+  }
+  const std::vector<ModelForce>& forces() const { return forces_; }
+  const std::vector<ModelTorque>& torques() const { return torques_; }
+  const std::vector<VectorCoordinate>& vectors() const { return vectors_; }
+  // Row v of M: the masses between vector v and others.
+  const std::vector<std::vector<MassEntry>>& mass() const { return mass_; }
+  const std::vector<GroundMass>& ground_mass() const { return ground_mass_; }
+
+  Eigen::Index num_positions() const { return num_positions_; }
+  Eigen::Index num_velocities() const { return num_velocities_; }
+  Eigen::Index num_strains() const { return num_strains_; }
+  Eigen::Index num_end_velocities() const { return num_end_velocities_; }
+
+  // Independent velocities: 12 for an ANCF body, 6 for a conventional one, 3
+  // for a free node, less 3 for each constraint.
+  Eigen::Index degrees_of_freedom() const {
+    return num_velocities_ - 3 * static_cast<Eigen::Index>(constraints_.size());
+  }
+
+ private:
+  friend class ModelAssembler;
+
+  Vector3d gravity_ = Vector3d::Zero();
+  std::vector<ModelBody> bodies_;
+  std::vector<ModelNode> nodes_;
+  std::vector<ModelLine> lines_;
+  std::vector<ModelConstraint> constraints_;
+  std::vector<ModelForce> forces_;
+  std::vector<ModelTorque> torques_;
+  std::vector<VectorCoordinate> vectors_;
+  std::vector<std::vector<MassEntry>> mass_;
+  std::vector<GroundMass> ground_mass_;
+  Eigen::Index num_positions_ = 0;
+  Eigen::Index num_velocities_ = 0;
+  Eigen::Index num_strains_ = 0;
+  Eigen::Index num_end_velocities_ = 0;
+};
+
+}  // namespace emmy
+
+#endif  // EMMY_MODEL_MODEL_H_

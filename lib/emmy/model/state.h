@@ -1,0 +1,37 @@
+// Everything that changes from step to step.
+
+#ifndef EMMY_MODEL_STATE_H_
+#define EMMY_MODEL_STATE_H_
+
+#include <cstdint>
+
+#include "emmy/base/compensated_sum.h"
+#include "emmy/base/types.h"
+
+namespace emmy {
+
+// Layout: the Model's offsets. Positions are inertial: centre of mass and
+// gradient vectors of an ANCF body [m, -]; centre of mass and quaternion
+// (w, x, y, z) of a conventional body. Velocities are their rates, except the
+// angular velocity of a conventional body, in body axes [rad/s].
+struct State {
+  int64_t step = 0;
+  CompensatedDouble time;  // [s]
+  CompensatedVector position;
+  CompensatedVector velocity;
+  CompensatedVector strain;  // Carried, never recomputed: (QS-1).
+  // Velocities of elements' ends on conventional bodies [m/s]: advanced by
+  // ½ (v₀ + v₁) = Δx/Δt like all others, but not linear in the body's.
+  CompensatedVector end_velocity;
+  CompensatedDouble load_work;  // Done by the loads since the start [J].
+
+  // Velocity increment per second and joint forces [N] of the last step: only
+  // the start values of the next iteration, kept here so that a resumed run
+  // repeats every bit.
+  VectorXd acceleration_guess;
+  VectorXd multiplier_guess;
+};
+
+}  // namespace emmy
+
+#endif  // EMMY_MODEL_STATE_H_

@@ -1,0 +1,31 @@
+// Checks of single fields, with messages that name the field's JSON pointer.
+
+#ifndef EMMY_MODEL_VALIDATION_H_
+#define EMMY_MODEL_VALIDATION_H_
+
+#include <string>
+#include <string_view>
+
+#include "absl/status/status.h"
+#include "emmy/base/types.h"
+
+namespace emmy {
+
+// `<pointer>: must be <expectation>, got <got>`
+absl::Status FieldError(std::string_view pointer, std::string_view expectation,
+                        std::string_view got);
+
+// `unit` is shown in brackets; empty: none.
+absl::Status CheckPositive(std::string_view pointer, double value,
+                           std::string_view unit);
+absl::Status CheckNotNegative(std::string_view pointer, double value,
+                              std::string_view unit);
+absl::Status CheckFinite(std::string_view pointer, const Vector3d& value,
+                         std::string_view unit);
+
+// Shortest text that reads back as the same number; "nan", "inf".
+std::string NumberText(double value);
+
+}  // namespace emmy
+
+#endif  // EMMY_MODEL_VALIDATION_H_

@@ -1,0 +1,63 @@
+// How an iteration is controlled and what it reports.
+
+#ifndef EMMY_NUMERICS_NEWTON_H_
+#define EMMY_NUMERICS_NEWTON_H_
+
+#include <limits>
+#include <optional>
+#include <string>
+
+namespace emmy {
+
+struct NewtonOptions {
+  // Empty: iterate until corrections stop shrinking at the round-off floor
+  // (EM-5). Else: converged when the largest velocity correction is at most
+  // tolerance · max|w|, which leaves a residual whose work is the energy error.
+  std::optional<double> tolerance;
+  int max_iterations = 60;
+};
+
+enum class Termination {
+  kConverged,        // The state is the accepted step.
+  kMaxIterations,    // The state is unchanged.
+  kSingularTangent,  // The state is unchanged; `message` names the element.
+  kNonFinite,        // The state is unchanged; a NaN or infinity appeared.
+};
+
+struct [[nodiscard]] StepReport {
+  Termination termination = Termination::kMaxIterations;
+  int iterations = 0;  // The most any part of the model needed.
+  // Largest velocity correction of the last iteration [m/s, rad/s].
+  double correction = 0.0;
+  std::string message;  // Non-empty unless kConverged.
+  bool ok() const { return termination == Termination::kConverged; }
+};
+
+// Judges when one sequence of corrections has reached round-off.     (EM-5)
+//
+// `floor` is the size that rounding alone can give a correction, from the
+// operation count and the scale of the problem. A correction far above it
+// never counts as stagnation, however it compares with the one before: the
+// first corrections of a stiff, large step may grow.
+class StagnationMonitor {
+ public:
+  // True once the sequence has stopped shrinking near `floor`, and from then
+  // on, so that several sequences may stagnate at different iterations.
+  bool Update(double correction, double floor) {
+    constexpr double kNear = 1e3;   // Where "stops shrinking" may be judged.
+    constexpr double kRatio = 0.5;  // Less than one bit gained.
+    const bool shrinks = correction < kRatio * previous_;
+    previous_ = correction;
+    stagnant_ = stagnant_ || correction == 0.0 ||
+                (correction <= kNear * floor && !shrinks);
+    return stagnant_;
+  }
+
+ private:
+  bool stagnant_ = false;
+  double previous_ = std::numeric_limits<double>::infinity();
+};
+
+}  // namespace emmy
+
+#endif  // EMMY_NUMERICS_NEWTON_H_

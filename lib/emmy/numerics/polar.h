@@ -1,0 +1,27 @@
+// Right polar decomposition of a 3×3 matrix.
+//
+//   F = R̃ U, R̃ᵀR̃ = 1, det R̃ = 1, U symmetric positive definite   (ATT-1)
+//
+// By Newton's iteration X ← ½ (X + X⁻ᵀ) (Higham, Functions of Matrices,
+// SIAM 2008, 8.3), quadratically convergent for every F with det F > 0.
+
+#ifndef EMMY_NUMERICS_POLAR_H_
+#define EMMY_NUMERICS_POLAR_H_
+
+#include "emmy/base/types.h"
+
+namespace emmy {
+
+struct PolarDecomposition {
+  Matrix3d rotation;  // R̃
+  Matrix3d stretch;   // U
+  // False where det F is not a positive number: the body is turned inside
+  // out, there is no attitude, and both matrices are NaN.
+  bool ok = false;
+};
+
+PolarDecomposition DecomposePolar(const Matrix3d& f);
+
+}  // namespace emmy
+
+#endif  // EMMY_NUMERICS_POLAR_H_
