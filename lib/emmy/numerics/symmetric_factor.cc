@@ -4,6 +4,8 @@
 #include <Eigen/LU>
 #include <Eigen/SparseCholesky>
 
+#include "emmy/numerics/supernodal_solve.h"
+
 namespace emmy {
 
 struct SymmetricFactor::Backend {
@@ -12,7 +14,7 @@ struct SymmetricFactor::Backend {
   Backend& operator=(const Backend&) = delete;
   virtual ~Backend() = default;
   virtual bool Factorize(const SymmetricBlockMatrix& matrix) = 0;
-  virtual void Solve(const VectorXd& b, VectorXd* x) const = 0;
+  virtual void Solve(const VectorXd& b, VectorXd* x) = 0;
 };
 
 struct SymmetricFactor::Dense final : SymmetricFactor::Backend {
@@ -37,26 +39,31 @@ struct SymmetricFactor::Dense final : SymmetricFactor::Backend {
            lu.matrixLU().allFinite();
   }
 
-  void Solve(const VectorXd& b, VectorXd* x) const override {
-    *x = lu.solve(b);
-  }
+  void Solve(const VectorXd& b, VectorXd* x) override { *x = lu.solve(b); }
 
   Eigen::PartialPivLU<Matrix> lu;
 };
 
+template <typename Scalar>
 struct SymmetricFactor::Simplicial final : SymmetricFactor::Backend {
   explicit Simplicial(const SymmetricBlockMatrix& matrix) {
     ldlt.analyzePattern(matrix.lower());
   }
   bool Factorize(const SymmetricBlockMatrix& matrix) override {
     ldlt.factorize(matrix.lower());
-    return ldlt.info() == Eigen::Success;
+    if (ldlt.info() != Eigen::Success) return false;
+    const Eigen::SparseMatrix<double>& lower =
+        ldlt.matrixL().nestedExpression();
+    if (!analyzed) panels.Analyze(lower, ldlt.permutationP());
+    analyzed = true;
+    panels.Update(lower, ldlt.vectorD());
+    return true;
   }
-  void Solve(const VectorXd& b, VectorXd* x) const override {
-    *x = ldlt.solve(b);
-  }
+  void Solve(const VectorXd& b, VectorXd* x) override { panels.Solve(b, x); }
 
   Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>, Eigen::Lower> ldlt;
+  SupernodalSolve<Scalar> panels;
+  bool analyzed = false;
 };
 
 struct SymmetricFactor::Supernodal final : SymmetricFactor::Backend {
@@ -69,9 +76,7 @@ struct SymmetricFactor::Supernodal final : SymmetricFactor::Backend {
     llt.factorize(matrix.lower());
     return llt.info() == Eigen::Success;
   }
-  void Solve(const VectorXd& b, VectorXd* x) const override {
-    *x = llt.solve(b);
-  }
+  void Solve(const VectorXd& b, VectorXd* x) override { *x = llt.solve(b); }
 
   Eigen::CholmodSupernodalLLT<Eigen::SparseMatrix<double>, Eigen::Lower> llt;
 };
@@ -81,7 +86,6 @@ SymmetricFactor::SymmetricFactor(const SymmetricBlockMatrix& matrix,
     : method_(method) {
   if (method_ == Method::kAutomatic) {
     method_ = 3 * matrix.num_blocks() <= kDenseLimit ? Method::kDense
-              : positive_definite                    ? Method::kSupernodal
                                                      : Method::kSimplicial;
   }
   switch (method_) {
@@ -93,7 +97,12 @@ SymmetricFactor::SymmetricFactor(const SymmetricBlockMatrix& matrix,
       break;
     case Method::kAutomatic:
     case Method::kSimplicial:
-      backend_ = std::make_unique<Simplicial>(matrix);
+      // A quasi-definite factor may grow by 1/κ: that needs every digit.
+      if (positive_definite) {
+        backend_ = std::make_unique<Simplicial<float>>(matrix);
+      } else {
+        backend_ = std::make_unique<Simplicial<double>>(matrix);
+      }
       break;
   }
 }
@@ -107,7 +116,7 @@ bool SymmetricFactor::Factorize(const SymmetricBlockMatrix& matrix) {
   return backend_->Factorize(matrix);
 }
 
-void SymmetricFactor::Solve(const VectorXd& b, VectorXd* x) const {
+void SymmetricFactor::Solve(const VectorXd& b, VectorXd* x) {
   backend_->Solve(b, x);
 }
 

@@ -40,13 +40,14 @@ class SymmetricFactor {
   bool Factorize(const SymmetricBlockMatrix& matrix);
 
   // x = A⁻¹ b for the last factorised A.
-  void Solve(const VectorXd& b, VectorXd* x) const;
+  void Solve(const VectorXd& b, VectorXd* x);
 
   Method method() const { return method_; }
 
  private:
   struct Backend;
   struct Dense;
+  template <typename Scalar>
   struct Simplicial;
   struct Supernodal;
 

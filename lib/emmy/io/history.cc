@@ -1,0 +1,182 @@
+#include "emmy/io/history.h"
+
+#include <array>
+#include <cerrno>
+#include <charconv>
+#include <cmath>
+#include <cstring>
+#include <filesystem>
+#include <system_error>
+#include <utility>
+
+#include "absl/strings/str_cat.h"
+#include "absl/strings/str_join.h"
+#include "absl/strings/str_replace.h"
+#include "absl/strings/string_view.h"
+#include "emmy/diagnostics/body_motion.h"
+#include "emmy/diagnostics/structure_motion.h"
+
+namespace emmy {
+namespace {
+
+constexpr std::array<const char*, 3> kAxes = {"_x", "_y", "_z"};
+
+void AddNames(const std::string& name, std::vector<std::string>* columns) {
+  for (const char* axis : kAxes) columns->push_back(name + axis);
+}
+
+void AddBodyNames(const std::string& body, std::vector<std::string>* columns) {
+  AddNames(body + ".position", columns);
+  AddNames(body + ".velocity", columns);
+  columns->push_back(body + ".quaternion_w");
+  AddNames(body + ".quaternion", columns);
+  AddNames(body + ".omega", columns);
+  AddNames(body + ".omega_polar", columns);
+  AddNames(body + ".omega_polar_exact", columns);
+}
+
+void AddValues(const Vector3d& vector, std::vector<double>* row) {
+  row->insert(row->end(), vector.begin(), vector.end());
+}
+
+void AddBodyValues(const BodyMotion& motion, std::vector<double>* row) {
+  AddValues(motion.position, row);
+  AddValues(motion.velocity, row);
+  row->insert(row->end(), motion.quaternion.begin(), motion.quaternion.end());
+  AddValues(motion.omega_locked, row);
+  AddValues(motion.omega_polar, row);
+  AddValues(motion.omega_polar_exact, row);
+}
+
+// In the order of HistoryColumns.
+std::vector<double> HistoryRow(const Model& model, const State& state,
+                               const Invariants& invariants, int iterations) {
+  std::vector<double> row = {static_cast<double>(state.step),
+                             state.time.value,
+                             invariants.kinetic_energy.ToDouble(),
+                             invariants.penalty_energy.ToDouble(),
+                             invariants.elastic_energy.ToDouble(),
+                             invariants.gravity_energy.ToDouble(),
+                             invariants.load_work.ToDouble(),
+                             invariants.TotalEnergy().ToDouble()};
+  AddValues(invariants.momentum.ToDouble(), &row);
+  AddValues(invariants.angular_momentum.ToDouble(), &row);
+  row.push_back(iterations);
+  for (size_t body = 0; body < model.bodies().size(); ++body) {
+    AddBodyValues(ObserveBody(model, state, body), &row);
+  }
+  for (size_t node = 0; node < model.nodes().size(); ++node) {
+    const PointMotion motion = ObserveNode(model, state, node);
+    AddValues(motion.position, &row);
+    AddValues(motion.velocity, &row);
+  }
+  for (size_t line = 0; line < model.lines().size(); ++line) {
+    const LineObservation observation = ObserveLine(model, state, line);
+    row.push_back(observation.strain);
+    row.push_back(observation.force);
+  }
+  return row;
+}
+
+// As %.17g, whatever the locale.
+void AppendNumber(double value, std::string* line) {
+  std::array<char, 32> buffer;
+  const std::to_chars_result result =
+      std::to_chars(buffer.data(), buffer.data() + buffer.size(), value,
+                    std::chars_format::general, 17);
+  line->append(buffer.data(), result.ptr);
+}
+
+// A name as a field of a CSV file (RFC 4180).
+std::string CsvField(const std::string& name) {
+  if (name.find_first_of(",\"\r\n") == std::string::npos) return name;
+  return absl::StrCat("\"", absl::StrReplaceAll(name, {{"\"", "\"\""}}), "\"");
+}
+
+absl::Status CannotWrite(const std::string& path, int error) {
+  return absl::DataLossError(
+      absl::StrCat(path, ": cannot be written: ", std::strerror(error)));
+}
+
+}  // namespace
+
+std::vector<std::string> HistoryColumns(const Model& model) {
+  std::vector<std::string> columns = {
+      "step",           "time",           "kinetic_energy", "penalty_energy",
+      "elastic_energy", "gravity_energy", "load_work",      "total_energy"};
+  AddNames("momentum", &columns);
+  AddNames("angular_momentum", &columns);
+  columns.push_back("newton_iterations");
+  for (const ModelBody& body : model.bodies()) {
+    AddBodyNames(body.name, &columns);
+  }
+  for (const ModelNode& node : model.nodes()) {
+    AddNames(node.name + ".position", &columns);
+    AddNames(node.name + ".velocity", &columns);
+  }
+  for (const ModelLine& line : model.lines()) {
+    columns.push_back(line.name + ".strain");
+    columns.push_back(line.name + ".force");
+  }
+  return columns;
+}
+
+void HistoryWriter::CloseFile::operator()(std::FILE* file) const {
+  static_cast<void>(std::fclose(
+      file));  // Every row has been flushed: nothing is left to fail.
+}
+
+HistoryWriter::HistoryWriter(std::string path, std::FILE* file,
+                             std::vector<std::string> columns)
+    : path_(std::move(path)), file_(file), columns_(std::move(columns)) {}
+
+absl::StatusOr<HistoryWriter> HistoryWriter::Create(const std::string& path,
+                                                    const Model& model) {
+  std::FILE* file = std::fopen(path.c_str(), "wb");
+  if (file == nullptr) {
+    return absl::FailedPreconditionError(
+        absl::StrCat(path, ": cannot be opened: ", std::strerror(errno)));
+  }
+  HistoryWriter writer(path, file, HistoryColumns(model));
+  absl::Status status = writer.WriteLine(absl::StrJoin(
+      writer.columns_, ",", [](std::string* out, const std::string& name) {
+        absl::StrAppend(out, CsvField(name));
+      }));
+  if (!status.ok()) return status;
+  return writer;
+}
+
+absl::Status HistoryWriter::Write(const Model& model, const State& state,
+                                  const Invariants& invariants,
+                                  int iterations) {
+  const std::vector<double> row =
+      HistoryRow(model, state, invariants, iterations);
+  std::string line;
+  for (size_t i = 0; i < row.size(); ++i) {
+    if (!std::isfinite(row[i])) {
+      return absl::InternalError(absl::StrCat(
+          path_, ": ", columns_[i], " is not finite at step ", state.step));
+    }
+    if (i > 0) line += ',';
+    AppendNumber(row[i], &line);
+  }
+  return WriteLine(line);
+}
+
+absl::Status HistoryWriter::WriteLine(const std::string& line) {
+  const std::string text = line + "\n";
+  if (std::fwrite(text.data(), 1, text.size(), file_.get()) == text.size() &&
+      std::fflush(file_.get()) == 0) {
+    complete_bytes_ += text.size();
+    return absl::OkStatus();
+  }
+  const int error = errno;
+  file_.reset();
+  std::error_code ignored;
+  if (std::filesystem::is_regular_file(path_, ignored)) {
+    std::filesystem::resize_file(path_, complete_bytes_, ignored);
+  }
+  return CannotWrite(path_, error);
+}
+
+}  // namespace emmy

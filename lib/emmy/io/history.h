@@ -1,0 +1,68 @@
+// history.csv: the motion as a table, a row per output step.
+//
+// One header row; then numbers with 17 significant digits, so that reading
+// them gives the same doubles. Columns: step, time [s]; energies [J]; momentum
+// [kg m/s]; angular momentum about the inertial origin [kg m^2/s]; iterations
+// of the step; for each body position [m], velocity [m/s], quaternion and the
+// three angular velocities [rad/s] of BodyMotion, inertial frame; for each node
+// position and velocity; for each truss and spring strain and force [N].
+//
+// The file grows while the run goes on and is complete up to the last written
+// row at any time: a row goes out in one piece, and if that fails what part of
+// it was written is cut off again. NaN and infinity are never written.
+
+#ifndef EMMY_IO_HISTORY_H_
+#define EMMY_IO_HISTORY_H_
+
+#include <cstdint>
+#include <cstdio>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "absl/status/status.h"
+#include "absl/status/statusor.h"
+#include "emmy/diagnostics/invariants.h"
+#include "emmy/model/model.h"
+#include "emmy/model/state.h"
+
+namespace emmy {
+
+// The names of the columns, without quotation marks.
+std::vector<std::string> HistoryColumns(const Model& model);
+
+class HistoryWriter {
+ public:
+  // Makes or replaces the file and writes the header row. Fails with
+  // kFailedPrecondition if it cannot be opened, kDataLoss if it cannot be
+  // written. Messages begin with `path`.
+  static absl::StatusOr<HistoryWriter> Create(const std::string& path,
+                                              const Model& model);
+
+  // Appends a row. `iterations` is that of the step that led to `state`, 0 at
+  // the start. Fails, leaving the rows before, if a value is not finite (its
+  // column is named) or the file cannot be written; do not call again then.
+  absl::Status Write(const Model& model, const State& state,
+                     const Invariants& invariants, int iterations);
+
+  const std::string& path() const { return path_; }
+
+ private:
+  struct CloseFile {
+    void operator()(std::FILE* file) const;
+  };
+
+  HistoryWriter(std::string path, std::FILE* file,
+                std::vector<std::string> columns);
+
+  absl::Status WriteLine(const std::string& line);
+
+  std::string path_;
+  std::unique_ptr<std::FILE, CloseFile> file_;
+  std::vector<std::string> columns_;
+  uintmax_t complete_bytes_ = 0;  // Length of the file up to its last row.
+};
+
+}  // namespace emmy
+
+#endif  // EMMY_IO_HISTORY_H_

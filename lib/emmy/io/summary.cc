@@ -1,0 +1,62 @@
+#include "emmy/io/summary.h"
+
+#include <nlohmann/json.hpp>
+
+#include "emmy/base/build_info.h"
+#include "emmy/base/check.h"
+#include "emmy/io/json_text.h"
+
+namespace emmy {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json ToJson(double x) { return x; }
+Json ToJson(const Vector3d& v) { return {v.x(), v.y(), v.z()}; }
+
+template <typename Record>
+Json ToJson(const Record& record) {
+  return {{"initial", ToJson(record.initial)},
+          {"final", ToJson(record.final)},
+          {"max_error", record.max_error},
+          {"scale", record.scale},
+          {"max_relative_error", record.max_relative_error()},
+          {"conserved", record.conserved}};
+}
+
+}  // namespace
+
+std::string StatusName(RunStatus status) {
+  switch (status) {
+    case RunStatus::kCompleted:
+      return "completed";
+    case RunStatus::kFailed:
+      return "failed";
+    case RunStatus::kInterrupted:
+      return "interrupted";
+  }
+  EMMY_CHECK(false, static_cast<int>(status));
+}
+
+std::string WriteSummary(const RunSummary& summary) {
+  const BuildInfo build = GetBuildInfo();
+  Json json = {{"format", "emmy-summary/1"},
+               {"case", summary.case_name},
+               {"status", StatusName(summary.status)}};
+  if (!summary.message.empty()) json["message"] = summary.message;
+  json["steps"] = summary.steps;
+  json["time"] = summary.time;
+  json["wall_seconds"] = summary.wall_seconds;
+  json["degrees_of_freedom"] = summary.degrees_of_freedom;
+  json["invariants"] = {{"energy", ToJson(summary.energy)},
+                        {"momentum", ToJson(summary.momentum)},
+                        {"angular_momentum", ToJson(summary.angular_momentum)}};
+  json["newton"] = {{"mean_iterations", summary.mean_iterations},
+                    {"max_iterations", summary.max_iterations}};
+  json["build"] = {{"version", build.version},
+                   {"compiler", build.compiler},
+                   {"flags", build.flags}};
+  return FormatJson(json) + "\n";
+}
+
+}  // namespace emmy

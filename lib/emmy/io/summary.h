@@ -1,0 +1,43 @@
+// summary.json: what became of a run, in one small file (emmy-summary/1).
+
+#ifndef EMMY_IO_SUMMARY_H_
+#define EMMY_IO_SUMMARY_H_
+
+#include <cstdint>
+#include <string>
+
+#include "emmy/diagnostics/invariant_monitor.h"
+
+namespace emmy {
+
+enum class RunStatus {
+  kCompleted,    // All steps done.
+  kFailed,       // Stopped by an error before that; the message says which.
+  kInterrupted,  // Stopped from outside (Ctrl-C).
+};
+
+struct RunSummary {
+  std::string case_name;
+  RunStatus status = RunStatus::kFailed;
+  std::string message;  // Empty if completed.
+  int64_t steps = 0;    // Accepted steps.
+  double time = 0.0;    // Reached [s].
+  double wall_seconds = 0.0;
+  int64_t degrees_of_freedom = 0;
+  EnergyRecord energy;
+  MomentumRecord momentum;
+  MomentumRecord angular_momentum;
+  double mean_iterations = 0.0;
+  int max_iterations = 0;
+};
+
+// "completed", "failed" or "interrupted".
+std::string StatusName(RunStatus status);
+
+// The text of summary.json, with the build of this library. JSON has no NaN
+// and no infinity; in their place stands null.
+std::string WriteSummary(const RunSummary& summary);
+
+}  // namespace emmy
+
+#endif  // EMMY_IO_SUMMARY_H_

@@ -1,0 +1,29 @@
+// Whole files in and out, with errors that say what the system said.
+
+#ifndef EMMY_IO_TEXT_FILE_H_
+#define EMMY_IO_TEXT_FILE_H_
+
+#include <cstddef>
+#include <string>
+
+#include "absl/status/status.h"
+#include "absl/status/statusor.h"
+#include "absl/strings/string_view.h"
+
+namespace emmy {
+
+// The bytes of the file. Fails if it cannot be read or holds more than
+// `max_bytes`; reads no more than that. Messages do not name the file.
+absl::StatusOr<std::string> ReadTextFile(const std::string& path,
+                                         size_t max_bytes);
+
+// Replaces the file as a whole: `path` holds either its old content or `text`,
+// never a part. Messages begin with the path.
+absl::Status WriteTextFile(const std::string& path, absl::string_view text);
+
+// Makes the directory and its parents if needed. Messages begin with the path.
+absl::Status MakeDirectory(const std::string& path);
+
+}  // namespace emmy
+
+#endif  // EMMY_IO_TEXT_FILE_H_
