@@ -1,0 +1,225 @@
+// What a user gets from `emmy run` and `emmy check`.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "absl/strings/str_split.h"
+#include "tests/cli/program.h"
+
+namespace emmy {
+namespace {
+
+using nlohmann::json;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::StartsWith;
+
+class RunTest : public ProgramTest {
+ protected:
+  RunTest() { Write("box.json", kBoxCase); }
+
+  // The fields of the column `column` (from 0) of out/history.csv.
+  std::vector<std::string> Column(size_t column) const {
+    std::vector<std::string> fields;
+    const std::vector<std::string> lines =
+        absl::StrSplit(Read("out/history.csv"), '\n', absl::SkipEmpty());
+    for (size_t i = 1; i < lines.size(); ++i) {
+      const std::vector<std::string> row = absl::StrSplit(lines[i], ',');
+      fields.push_back(row[column]);
+    }
+    return fields;
+  }
+};
+
+TEST_F(RunTest, PrintsTheSummaryAndWritesNothingWithoutOutput) {
+  const ProgramResult result = Run("run box.json");
+  EXPECT_EQ(result.exit_status, 0);
+  EXPECT_EQ(result.err, "");
+  const json summary = json::parse(result.out);
+  EXPECT_EQ(summary["format"], "emmy-summary/1");
+  EXPECT_EQ(summary["status"], "completed");
+  EXPECT_EQ(summary["steps"], 10);
+  EXPECT_EQ(summary["degrees_of_freedom"], 12);
+  EXPECT_LT(summary["invariants"]["energy"]["max_relative_error"], 1e-15);
+  EXPECT_THAT(Files(), ElementsAre("box.json"));
+}
+
+TEST_F(RunTest, WritesHistoryAndSummaryIntoTheOutputFolder) {
+  const ProgramResult result = Run("run box.json --output out");
+  EXPECT_EQ(result.exit_status, 0);
+  EXPECT_EQ(result.err, "");
+  EXPECT_THAT(result.out, StartsWith("box: 10 steps to 0.01 s"));
+  EXPECT_THAT(result.out,
+              HasSubstr("Wrote out/history.csv and out/summary.json\n"));
+  EXPECT_EQ(Column(0).size(), 11u);
+  EXPECT_EQ(json::parse(Read("out/summary.json"))["steps"], 10);
+}
+
+TEST_F(RunTest, MakesTheOutputFolderAndItsParents) {
+  EXPECT_EQ(Run("run box.json --output a/b/c").exit_status, 0);
+  EXPECT_THAT(Read("a/b/c/summary.json"), HasSubstr("emmy-summary/1"));
+}
+
+TEST_F(RunTest, IsSilentIfAskedTo) {
+  const ProgramResult result = Run("run box.json --output out --quiet");
+  EXPECT_EQ(result.exit_status, 0);
+  EXPECT_EQ(result.out, "");
+  EXPECT_EQ(result.err, "");
+}
+
+TEST_F(RunTest, WritesEveryNthStepAndTheLast) {
+  EXPECT_EQ(Run("run box.json --output out --set /output/every=4").exit_status,
+            0);
+  EXPECT_THAT(Column(0), ElementsAre("0", "4", "8", "10"));
+}
+
+TEST_F(RunTest, StepsReplaceTheDuration) {
+  EXPECT_EQ(Run("run box.json --output out --steps 3").exit_status, 0);
+  EXPECT_THAT(Column(1), ElementsAre("0", "0.001", "0.002",
+                                     ::testing::StartsWith("0.003")));
+  EXPECT_EQ(Run("run box.json --output out --steps 0").exit_status, 0);
+  EXPECT_THAT(Column(0), ElementsAre("0"));
+}
+
+TEST_F(RunTest, OverridesMayBeRepeated) {
+  const ProgramResult result =
+      Run("run --set /integrator/duration=2e-3 box.json --set /name=other");
+  EXPECT_EQ(result.exit_status, 0);
+  EXPECT_EQ(json::parse(result.out)["steps"], 2);
+  EXPECT_EQ(json::parse(result.out)["case"], "other");
+}
+
+TEST_F(RunTest, GivesTheSameHistoryEachTime) {
+  EXPECT_EQ(Run("run box.json --output out").exit_status, 0);
+  const std::string first = Read("out/history.csv");
+  EXPECT_EQ(Run("run box.json --output out").exit_status, 0);
+  EXPECT_EQ(Read("out/history.csv"), first);
+}
+
+// Steps of 100 s with a body that turns by 99 rad in each cannot converge.
+TEST_F(RunTest, AFailedRunKeepsItsHistoryAndSaysSo) {
+  const ProgramResult result =
+      Run("run box.json --output out --steps 5 --set /integrator/time_step=100 "
+          "--set /rigid_bodies/0/penalty=1e14");
+  EXPECT_EQ(result.exit_status, 1);
+  EXPECT_THAT(result.err, StartsWith("box.json: step "));
+  const json summary = json::parse(Read("out/summary.json"));
+  EXPECT_EQ(summary["status"], "failed");
+  EXPECT_EQ("box.json: " + summary["message"].get<std::string>() + "\n",
+            result.err);
+  EXPECT_EQ(Column(0).size(), summary["steps"].get<size_t>() + 1);
+}
+
+TEST_F(RunTest, AFullDiskEndsTheRunAfterTheLastWholeRow) {
+  const ProgramResult result = Shell(
+      "trap '' XFSZ; ulimit -f 4; \"$EMMY\" run box.json --output out --quiet "
+      "--steps 1000");
+  EXPECT_EQ(result.exit_status, 1);
+  EXPECT_EQ(result.err,
+            "box.json: out/history.csv: cannot be written: File too large\n");
+  const std::string history = Read("out/history.csv");
+  EXPECT_EQ(history.back(), '\n');
+  const json summary = json::parse(Read("out/summary.json"));
+  EXPECT_EQ(summary["status"], "failed");
+  EXPECT_EQ(Column(0).back(), std::to_string(Column(0).size() - 1));
+  EXPECT_LT(Column(0).size(), 1000u);
+}
+
+// Starts a run that would take hours, and ends it when `condition` holds.
+std::string RunUntil(const std::string& condition) {
+  return "\"$EMMY\" run box.json --output out --steps 1000000000 "
+         "--set /output/every=100 &\n"
+         "until " +
+         condition + "; do sleep 0.1; done\nkill -TERM $!\nwait $!\n";
+}
+
+TEST_F(RunTest, AnInterruptEndsTheRunAfterAWholeRow) {
+  const ProgramResult result = Shell(RunUntil("[ -s out/history.csv ]"));
+  EXPECT_EQ(result.exit_status, 1);
+  EXPECT_THAT(result.err, StartsWith("box.json: interrupted after step "));
+  const json summary = json::parse(Read("out/summary.json"));
+  EXPECT_EQ(summary["status"], "interrupted");
+  EXPECT_EQ(Column(0).back(), std::to_string(summary["steps"].get<int64_t>()));
+}
+
+TEST_F(RunTest, WritesNoProgressWhereThereIsNoTerminal) {
+  const ProgramResult result = Shell(RunUntil("sleep 1.5"));
+  EXPECT_THAT(result.err, StartsWith("box.json: interrupted after step "));
+}
+
+TEST_F(RunTest, ShowsProgressOnATerminalAndRemovesItAtTheEnd) {
+  if (Shell("command -v script").exit_status != 0) GTEST_SKIP();
+  Write("go.sh", RunUntil("grep -q left terminal"));
+  Shell("export EMMY TERM=xterm; script -qfc 'sh go.sh' terminal");
+  const std::string terminal = Read("terminal");
+  EXPECT_THAT(terminal, HasSubstr("%  step "));
+  EXPECT_THAT(terminal, HasSubstr(" of 1000000000  "));
+  const size_t last_bar = terminal.rfind(" left");
+  EXPECT_THAT(terminal.substr(last_bar),
+              StartsWith(" left\033[K\r\033[Kbox: "));  // Then the report.
+}
+
+class CheckTest : public ProgramTest {
+ protected:
+  CheckTest() { Write("box.json", kBoxCase); }
+};
+
+TEST_F(CheckTest, SaysWhatTheModelIs) {
+  const ProgramResult result = Run("check box.json --set /output/every=4");
+  EXPECT_EQ(result.exit_status, 0);
+  EXPECT_EQ(result.err, "");
+  EXPECT_EQ(result.out, R"(box
+Gravity: (0, 0, 0) m/s^2
+Rigid bodies: 1
+  box: ancf, mass 16200 kg, principal inertia (6750, 13500, 17550) kg m^2
+    turns by 0.00099 rad a step (0.989949 rad/s)
+    penalty 1e+10 Pa: fastest strain 7.45e+03 rad/s, 1.19 periods a step; starts undeformed
+Degrees of freedom: 12
+Integrator: energy_momentum, order 2, 10 steps of 0.001 s to 0.01 s, tolerance round_off
+Output: every 4 steps, 4 rows
+Conserved: energy yes, momentum yes, angular momentum yes
+)");
+  EXPECT_THAT(Files(), ElementsAre("box.json"));
+}
+
+TEST_F(CheckTest, AcceptsEveryExample) {
+  const ProgramResult result =
+      Shell("for file in '" EMMY_SOURCE_DIR
+            "'/examples/*.json; do \"$EMMY\" check \"$file\" || exit 1; done");
+  EXPECT_EQ(result.exit_status, 0) << result.err;
+}
+
+class HelpTest : public ProgramTest {};
+
+TEST_F(HelpTest, EveryCommandHasHelpWithExamples) {
+  for (const char* arguments : {"--help", "run --help", "check --help"}) {
+    const ProgramResult result = Run(arguments);
+    EXPECT_EQ(result.exit_status, 0) << arguments;
+    EXPECT_EQ(result.err, "") << arguments;
+    EXPECT_THAT(result.out, HasSubstr("Examples:\n  emmy ")) << arguments;
+  }
+}
+
+TEST_F(HelpTest, FitsATerminal) {
+  for (const char* arguments : {"--help", "run --help", "check --help"}) {
+    const std::vector<std::string> lines =
+        absl::StrSplit(Run(arguments).out, '\n');
+    for (const std::string& line : lines) {
+      EXPECT_LE(line.size(), 80u) << line;
+    }
+  }
+}
+
+TEST_F(HelpTest, VersionNamesProgramAndBuild) {
+  const ProgramResult result = Run("--version");
+  EXPECT_EQ(result.exit_status, 0);
+  EXPECT_THAT(result.out, StartsWith("emmy "));
+  EXPECT_THAT(result.out, HasSubstr("\nbuilt with "));
+}
+
+}  // namespace
+}  // namespace emmy

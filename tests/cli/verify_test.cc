@@ -1,0 +1,100 @@
+// emmy verify and emmy regenerate, as a user types them.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "tests/cli/program.h"
+
+namespace emmy {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::Contains;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::Not;
+
+class VerifyTest : public ProgramTest {};
+class RegenerateTest : public ProgramTest {};
+
+TEST_F(VerifyTest, ListsTheClaimsAndMeasuresNothing) {
+  const ProgramResult result = Run("verify --list");
+  EXPECT_EQ(result.exit_status, 0);
+  EXPECT_THAT(result.out, AllOf(HasSubstr("conservation/energy"),
+                                HasSubstr("order/ancf_body")));
+  EXPECT_THAT(result.out, Not(HasSubstr("margin")));
+}
+
+TEST_F(VerifyTest, RunsOneClaimAndSaysThatItHolds) {
+  const ProgramResult result = Run("verify --only external/positions");
+  EXPECT_EQ(result.exit_status, 0) << result.out;
+  EXPECT_THAT(result.out, AllOf(HasSubstr("external/positions"),
+                                HasSubstr("1 of 1 claims hold (quick level)")));
+  EXPECT_THAT(result.err, IsEmpty());
+}
+
+TEST_F(VerifyTest, IsTheSameEveryTime) {
+  const std::string command =
+      "verify --only figures/paper_6 --only external/positions";
+  EXPECT_EQ(Run(command).out, Run(command).out);
+}
+
+TEST_F(VerifyTest, UnknownClaimIsBadInputAndTheClaimsAreListed) {
+  const ProgramResult result = Run("verify --only no/such --output out");
+  EXPECT_EQ(result.exit_status, 2);
+  EXPECT_THAT(result.err, AllOf(HasSubstr("there is no claim \"no/such\""),
+                                HasSubstr("conservation/energy")));
+  EXPECT_THAT(Files(), IsEmpty());
+}
+
+TEST_F(VerifyTest, UnknownLevelIsBadInput) {
+  EXPECT_EQ(Run("verify --level slow").exit_status, 2);
+}
+
+TEST_F(VerifyTest, WritesReportAndFigures) {
+  const ProgramResult result =
+      Run("verify --only figures/paper_6 --output out/report");
+  EXPECT_EQ(result.exit_status, 0) << result.err;
+  const auto json = nlohmann::json::parse(Read("out/report/report.json"));
+  EXPECT_EQ(json.at("pass"), true);
+  EXPECT_EQ(json.at("claims").at(0).at("id"), "figures/paper_6");
+  EXPECT_THAT(Read("out/report/paper_figure_6.csv"), HasSubstr("time [s]"));
+  EXPECT_THAT(Read("out/report/paper_figure_6.gp"), HasSubstr("plot data"));
+}
+
+TEST_F(RegenerateTest, CheckFindsTheStoredDataCurrent) {
+  const ProgramResult result = Run(
+      "regenerate --check --only paper_box_ancf --only paper_box_conventional");
+  EXPECT_EQ(result.exit_status, 0) << result.out;
+  EXPECT_THAT(result.out, HasSubstr("paper_box_ancf.json: current"));
+}
+
+TEST_F(RegenerateTest, CheckWritesNothingAndSaysWhatWouldChange) {
+  const ProgramResult result = Shell(
+      "EMMY_PROJECT_DIRECTORY=. \"$EMMY\" regenerate --check "
+      "--only paper_box_ancf");
+  EXPECT_EQ(result.exit_status, 1);
+  EXPECT_THAT(result.out, HasSubstr("paper_box_ancf.json: would change"));
+  EXPECT_THAT(Files(), IsEmpty());
+}
+
+TEST_F(RegenerateTest, WritesBelowTheProjectAndThenIsCurrent) {
+  const std::string command =
+      "EMMY_PROJECT_DIRECTORY=. \"$EMMY\" regenerate "
+      "--only paper_box_conventional";
+  EXPECT_THAT(Shell(command).out, HasSubstr("written"));
+  EXPECT_THAT(Shell(command).out, HasSubstr("current"));
+  EXPECT_THAT(Files(), Contains("reference_data"));
+}
+
+TEST_F(RegenerateTest, UnknownNameIsBadInputAndTheNamesAreListed) {
+  const ProgramResult result = Run("regenerate --only no_such");
+  EXPECT_EQ(result.exit_status, 2);
+  EXPECT_THAT(result.err, AllOf(HasSubstr("there is no \"no_such\""),
+                                HasSubstr("paper_box_ancf")));
+}
+
+}  // namespace
+}  // namespace emmy

@@ -1,0 +1,64 @@
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <string>
+
+#include "emmy/integrate/energy_momentum.h"
+#include "emmy/model/model_builder.h"
+#include "tests/support/paper_box.h"
+
+namespace emmy {
+namespace {
+
+class IntegratorOptionsTest : public ::testing::Test {
+ protected:
+  // The message, or "" if the options are accepted.
+  std::string Message(const IntegratorOptions& options) const {
+    const auto integrator =
+        EnergyMomentumIntegrator::Create(built_.model, options);
+    if (integrator.ok()) return "";
+    EXPECT_EQ(integrator.status().code(), absl::StatusCode::kInvalidArgument);
+    return std::string(integrator.status().message());
+  }
+
+  static constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+  static constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  BuiltModel built_ = *BuildModel(ModelOf(PaperBox()));
+};
+
+TEST_F(IntegratorOptionsTest, ATimeStepHasToBeGiven) {
+  EXPECT_EQ(Message({}),
+            "/integrator/time_step: must be a finite number > 0 [s], got 0");
+}
+
+TEST_F(IntegratorOptionsTest, ATimeStepIsFinite) {
+  EXPECT_EQ(Message({.time_step = kNan}),
+            "/integrator/time_step: must be a finite number > 0 [s], got nan");
+  EXPECT_EQ(Message({.time_step = kInfinity}),
+            "/integrator/time_step: must be a finite number > 0 [s], got inf");
+}
+
+TEST_F(IntegratorOptionsTest, ATimeStepMayGoBack) {
+  EXPECT_EQ(Message({.time_step = -1e-3}), "");
+}
+
+TEST_F(IntegratorOptionsTest, AToleranceIsBetweenZeroAndOne) {
+  const std::string expected =
+      "/integrator/tolerance: must be \"round_off\" or a number between 0 and "
+      "1, got ";
+  EXPECT_EQ(Message({.time_step = 1e-3, .tolerance = 0.0}), expected + "0");
+  EXPECT_EQ(Message({.time_step = 1e-3, .tolerance = 1.0}), expected + "1");
+  EXPECT_EQ(Message({.time_step = 1e-3, .tolerance = -1e-6}),
+            expected + "-1e-06");
+  EXPECT_EQ(Message({.time_step = 1e-3, .tolerance = kNan}), expected + "nan");
+  EXPECT_EQ(Message({.time_step = 1e-3, .tolerance = 1e-6}), "");
+}
+
+TEST_F(IntegratorOptionsTest, AnOrderThatIsNotThereIsRejected) {
+  const std::string message = Message({.order = 3, .time_step = 1e-3});
+  EXPECT_EQ(message.rfind("/integrator/order: must be ", 0), 0U) << message;
+  EXPECT_NE(message.find(", got 3"), std::string::npos) << message;
+}
+
+}  // namespace
+}  // namespace emmy

@@ -1,0 +1,83 @@
+#include "emmy/numerics/newton.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+namespace emmy {
+namespace {
+
+constexpr double kFloor = 1e-16;
+
+TEST(StagnationMonitorTest, FirstCorrectionsThatGrowAreNotStagnation) {
+  StagnationMonitor monitor;
+  for (const double correction : {1.0, 2.0, 5.0, 3.0, 4.0, 4.0, 1.0}) {
+    EXPECT_FALSE(monitor.Update(correction, kFloor)) << correction;
+  }
+}
+
+TEST(StagnationMonitorTest, SlowConvergenceFarAboveTheFloorIsNotStagnation) {
+  StagnationMonitor monitor;
+  double correction = 1.0;
+  for (int i = 0; i < 50; ++i) {
+    EXPECT_FALSE(monitor.Update(correction, kFloor)) << correction;
+    correction *= 0.9;
+  }
+}
+
+TEST(StagnationMonitorTest, ShrinkingNearTheFloorGoesOn) {
+  StagnationMonitor monitor;
+  for (const double correction : {1e-10, 1e-13, 1e-14, 1e-15, 1e-16, 1e-17}) {
+    EXPECT_FALSE(monitor.Update(correction, kFloor)) << correction;
+  }
+}
+
+TEST(StagnationMonitorTest, GainingLessThanABitNearTheFloorIsStagnation) {
+  StagnationMonitor monitor;
+  EXPECT_FALSE(monitor.Update(1e-10, kFloor));
+  EXPECT_FALSE(monitor.Update(2e-16, kFloor));
+  EXPECT_TRUE(monitor.Update(1.5e-16, kFloor));
+}
+
+TEST(StagnationMonitorTest, GrowingNearTheFloorIsStagnation) {
+  StagnationMonitor monitor;
+  EXPECT_FALSE(monitor.Update(1e-16, kFloor));
+  EXPECT_TRUE(monitor.Update(3e-16, kFloor));
+}
+
+TEST(StagnationMonitorTest, OneCorrectionAloneIsNotStagnation) {
+  StagnationMonitor monitor;
+  EXPECT_FALSE(monitor.Update(1e-18, kFloor));
+}
+
+TEST(StagnationMonitorTest, StaysStagnantWhateverFollows) {
+  StagnationMonitor monitor;
+  EXPECT_FALSE(monitor.Update(1e-16, kFloor));
+  EXPECT_TRUE(monitor.Update(1e-16, kFloor));
+  EXPECT_TRUE(monitor.Update(1e-17, kFloor));
+  EXPECT_TRUE(monitor.Update(1.0, kFloor));
+}
+
+TEST(StagnationMonitorTest, AZeroCorrectionIsTheEndEvenWithoutAFloor) {
+  StagnationMonitor monitor;
+  EXPECT_TRUE(monitor.Update(0.0, 0.0));
+}
+
+TEST(StagnationMonitorTest, NotANumberIsNeverStagnation) {
+  StagnationMonitor monitor;
+  constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_FALSE(monitor.Update(kNan, kFloor));
+  EXPECT_FALSE(monitor.Update(kNan, kFloor));
+}
+
+TEST(StepReportTest, IsPessimisticUntilShownOtherwise) {
+  EXPECT_FALSE(StepReport{}.ok());
+  EXPECT_EQ(StepReport{}.termination, Termination::kMaxIterations);
+}
+
+TEST(NewtonOptionsTest, DefaultIsRoundOff) {
+  EXPECT_FALSE(NewtonOptions{}.tolerance.has_value());
+}
+
+}  // namespace
+}  // namespace emmy

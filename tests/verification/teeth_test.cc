@@ -1,0 +1,99 @@
+// Every claim can be refuted: a deliberately wrong variant of the method fails
+// it. A claim without such a variant fails here.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <ostream>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "absl/strings/str_replace.h"
+#include "tests/verification/wrong_schemes.h"
+#include "verification/registry.h"
+
+namespace emmy::verification {
+namespace {
+
+struct Tooth {
+  const char* claim;
+  const char* variant;
+  Scheme scheme;
+  friend void PrintTo(const Tooth& tooth, std::ostream* os) {
+    *os << tooth.claim << " by " << tooth.variant;
+  }
+};
+
+const std::vector<Tooth>& Teeth() {
+  const Scheme plain = PlainArithmeticScheme;
+  static const std::vector<Tooth>* const teeth = new std::vector<Tooth>{
+      {"conservation/energy", "PlainArithmetic", plain},
+      {"conservation/energy", "LooseNewton", LooseNewton(1e-6)},
+      {"conservation/angular_momentum", "PlainArithmetic", plain},
+      {"conservation/angular_momentum", "LooseNewton", LooseNewton(1e-6)},
+      {"conservation/soft_penalty", "LooseNewton", LooseNewton(1e-8)},
+      {"conservation/soft_penalty", "BiasedRounding", BiasedRounding(1e-18)},
+      {"conservation/moving_body", "PlainArithmetic", plain},
+      {"conservation/moving_body", "BiasedRounding", BiasedRounding(1e-18)},
+      {"conservation/conventional_body", "PlainArithmetic", plain},
+      {"conservation/conventional_body", "BiasedRounding",
+       BiasedRounding(1e-18)},
+      {"conservation/penalty_independence", "StrainKick", StrainKick(1e-6)},
+      {"growth/ancf_body", "BiasedRounding", BiasedRounding(1e-20)},
+      {"growth/conventional_body", "BiasedRounding", BiasedRounding(1e-20)},
+      {"large_steps/hundredth_second", "BiasedRounding", BiasedRounding(1e-18)},
+      {"large_steps/tenth_second", "BiasedRounding", BiasedRounding(1e-17)},
+      {"large_steps/half_second", "FewIterations", FewIterations(4)},
+      {"large_steps/never_silent", "LooseNewton", LooseNewton(0.1)},
+      {"large_steps/never_silent", "SilentFailure", SilentFailure},
+      {"penalty/locked_exponent", "WrongClock", WrongClock(1e-5, true)},
+      {"penalty/locked_error", "WrongClock", WrongClock(1e-6, true)},
+      {"penalty/polar_exponent", "WrongClock", WrongClock(1e-5, true)},
+      {"penalty/relaxed_error", "WrongClock", WrongClock(1e-6, true)},
+      {"order/ancf_body", "FirstOrderClock", FirstOrderClock(1e-2)},
+      {"order/conventional_body", "FirstOrderClock", FirstOrderClock(1e-2)},
+      {"order/penalty_floor", "StrainKick", StrainKick(1e-6)},
+      {"external/flip_times", "WrongClock", WrongClock(1e-5)},
+      {"external/motion", "WrongClock", WrongClock(1e-5)},
+      {"external/positions", "WrongClock", WrongClock(1e-12)},
+      {"figures/paper_5", "WrongClock", WrongClock(1e-3, true)},
+      {"figures/paper_6", "BiasedRounding", BiasedRounding(1e-16)},
+      {"figures/energy_error", "PlainArithmetic", plain},
+  };
+  return *teeth;
+}
+
+class TeethTest : public ::testing::TestWithParam<Tooth> {};
+
+TEST_P(TeethTest, RefutesTheClaim) {
+  const Claim* claim = FindClaim(GetParam().claim);
+  ASSERT_NE(claim, nullptr) << GetParam().claim;
+  ClaimSetting setting;
+  setting.scheme = GetParam().scheme;
+  const Outcome outcome = RunClaim(*claim, setting);
+  EXPECT_FALSE(outcome.pass);
+  // By a measured value, not by something that went wrong on the way.
+  EXPECT_FALSE(outcome.result.values.empty()) << outcome.failure;
+  EXPECT_THAT(outcome.failure, ::testing::HasSubstr("bound"));
+}
+
+INSTANTIATE_TEST_SUITE_P(Claims, TeethTest, ::testing::ValuesIn(Teeth()),
+                         [](const auto& tooth) {
+                           return absl::StrReplaceAll(tooth.param.claim,
+                                                      {{"/", "_"}}) +
+                                  "_by_" + tooth.param.variant;
+                         });
+
+TEST(TeethCompletenessTest, EveryClaimHasAVariantThatRefutesIt) {
+  for (const Claim& claim : AllClaims()) {
+    EXPECT_TRUE(std::any_of(
+        Teeth().begin(), Teeth().end(),
+        [&claim](const Tooth& tooth) { return tooth.claim == claim.id; }))
+        << claim.id;
+  }
+}
+
+}  // namespace
+}  // namespace emmy::verification

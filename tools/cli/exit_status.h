@@ -1,0 +1,16 @@
+// What `emmy` returns to the shell, whatever the command.
+
+#ifndef EMMY_TOOLS_CLI_EXIT_STATUS_H_
+#define EMMY_TOOLS_CLI_EXIT_STATUS_H_
+
+namespace emmy {
+
+enum ExitStatus : int {
+  kExitDone = 0,
+  kExitFailed = 1,    // A check failed or the computation could not go on.
+  kExitBadInput = 2,  // Bad input or usage; nothing was written.
+};
+
+}  // namespace emmy
+
+#endif  // EMMY_TOOLS_CLI_EXIT_STATUS_H_

@@ -1,0 +1,190 @@
+#include "tools/cli/verify_command.h"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <memory>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "absl/status/status.h"
+#include "absl/status/statusor.h"
+#include "absl/strings/str_cat.h"
+#include "emmy/io/text_file.h"
+#include "tools/cli/print.h"
+#include "verification/registry.h"
+#include "verification/report/claim_table.h"
+#include "verification/report/json_report.h"
+#include "verification/report/text_report.h"
+
+namespace emmy {
+namespace {
+
+using verification::Claim;
+using verification::Outcome;
+
+struct Arguments {
+  bool list = false;
+  std::string format = "text";
+  std::vector<std::string> only;
+  std::string level = "quick";
+  std::string output;
+};
+
+// Those of `ids`, in the order of the registry; all if there are none.
+absl::StatusOr<std::vector<const Claim*>> Select(
+    const std::vector<std::string>& ids) {
+  std::vector<const Claim*> selected;
+  for (const Claim& claim : verification::AllClaims()) {
+    const bool named = std::find(ids.begin(), ids.end(), claim.id) != ids.end();
+    if (ids.empty() || named) selected.push_back(&claim);
+  }
+  for (const std::string& id : ids) {
+    if (verification::FindClaim(id) != nullptr) continue;
+    std::string known;
+    for (const Claim& claim : verification::AllClaims()) {
+      absl::StrAppend(&known, "\n  ", claim.id);
+    }
+    return absl::InvalidArgumentError(absl::StrCat(
+        "--only: there is no claim \"", id, "\"; the claims are", known));
+  }
+  return selected;
+}
+
+// A line on standard error that says how many are done, if a person watches.
+class Counter {
+ public:
+  explicit Counter(size_t total)
+      : total_(total), enabled_(isatty(STDERR_FILENO) != 0) {
+    Show("");
+  }
+  ~Counter() {
+    if (enabled_) std::fputs("\r\033[K", stderr);
+  }
+  Counter(const Counter&) = delete;
+  Counter& operator=(const Counter&) = delete;
+
+  void Finished(const Outcome& outcome) {
+    ++done_;
+    Show(outcome.claim->id);
+  }
+
+ private:
+  void Show(const std::string& last) const {
+    if (!enabled_) return;
+    std::fprintf(stderr, "\r%zu of %zu claims checked  %s\033[K", done_, total_,
+                 last.c_str());
+    std::fflush(stderr);
+  }
+
+  size_t total_;
+  size_t done_ = 0;
+  bool enabled_;
+};
+
+// The report and the figures. A figure that cannot be drawn is said, but does
+// not change the verdict: its data and script are there.
+absl::Status WriteReport(const std::vector<Outcome>& outcomes,
+                         const std::string& directory) {
+  absl::Status status = WriteTextFile(directory + "/report.json",
+                                      verification::JsonReport(outcomes));
+  if (!status.ok()) return status;
+  for (const Outcome& outcome : outcomes) {
+    for (const verification::Figure& figure : outcome.result.figures) {
+      status = verification::WriteFigure(figure, directory);
+      if (absl::IsUnavailable(status)) {
+        PrintError(status, kExitDone);
+      } else if (!status.ok()) {
+        return status;
+      }
+    }
+  }
+  return absl::OkStatus();
+}
+
+ExitStatus Verify(const Arguments& arguments) {
+  const absl::StatusOr<std::vector<const Claim*>> claims =
+      Select(arguments.only);
+  if (!claims.ok()) return PrintError(claims.status(), kExitBadInput);
+  if (arguments.list) {
+    Print(arguments.format == "markdown" ? verification::ClaimTable(*claims)
+                                         : verification::ClaimList(*claims));
+    return kExitDone;
+  }
+  if (!arguments.output.empty()) {
+    const absl::Status made = MakeDirectory(arguments.output);
+    if (!made.ok()) return PrintError(made, kExitBadInput);
+  }
+
+  verification::ClaimSetting setting;
+  setting.level = arguments.level == "quick" ? verification::Level::kQuick
+                                             : verification::Level::kFull;
+  const int threads =
+      std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+  std::vector<Outcome> outcomes;
+  {
+    Counter counter(claims->size());
+    outcomes = verification::RunClaims(
+        *claims, setting, threads,
+        [&counter](const Outcome& outcome) { counter.Finished(outcome); });
+  }
+  for (const Outcome& outcome : outcomes) {
+    Print(verification::OutcomeText(outcome));
+  }
+  if (!arguments.output.empty()) {
+    const absl::Status written = WriteReport(outcomes, arguments.output);
+    if (!written.ok()) return PrintError(written, kExitFailed);
+    Print("Wrote " + arguments.output + "/report.json and its figures\n");
+  }
+  Print(verification::VerdictText(outcomes));
+  const bool pass = std::all_of(outcomes.begin(), outcomes.end(),
+                                [](const Outcome& o) { return o.pass; });
+  return pass ? kExitDone : kExitFailed;
+}
+
+}  // namespace
+
+Command AddVerifyCommand(CLI::App& app) {
+  CLI::App* options = app.add_subcommand(
+      "verify", "Measure what is claimed about Emmy, and judge");
+  const auto arguments = std::make_shared<Arguments>();
+  CLI::Option* list = options->add_flag("--list", arguments->list,
+                                        "Print the claims and measure nothing");
+  options
+      ->add_option("--format", arguments->format,
+                   "Of --list: text, or markdown for a table with bounds and "
+                   "where they come from")
+      ->check(CLI::IsMember({"text", "markdown"}))
+      ->type_name("FORMAT")
+      ->needs(list);
+  options
+      ->add_option("--only", arguments->only,
+                   "Only this claim; may be repeated")
+      ->type_name("ID")
+      ->allow_extra_args(false);
+  options
+      ->add_option("--level", arguments->level,
+                   "quick: shorter runs, a minute in all (default); full: "
+                   "the lengths that are claimed, several minutes")
+      ->check(CLI::IsMember({"quick", "full"}))
+      ->type_name("LEVEL");
+  options
+      ->add_option("-o,--output", arguments->output,
+                   "Write report.json and the figures (CSV, gnuplot script, "
+                   "SVG) into this directory, which is made if needed")
+      ->type_name("DIR");
+  options->footer(R"(
+Each claim is one line: id, verdict, the value closest to its bound, the bound,
+the part of it that is left (margin). Failures are repeated at the end. Exit
+status: 0 all claims hold; 1 not; 2 wrong usage.
+
+Examples:
+  emmy verify --list
+  emmy verify --level quick --output report
+  emmy verify --only order/ancf_body)");
+  return {options, [arguments] { return Verify(*arguments); }};
+}
+
+}  // namespace emmy

@@ -1,0 +1,80 @@
+// The program `emmy`: commands on case files. Each command is a file in
+// tools/cli; what they share is the exit status (exit_status.h).
+
+#include <CLI/CLI.hpp>
+#include <exception>
+#include <string>
+#include <vector>
+
+#include "absl/status/status.h"
+#include "emmy/base/build_info.h"
+#include "tools/cli/check_command.h"
+#include "tools/cli/command.h"
+#include "tools/cli/exit_status.h"
+#include "tools/cli/generate_command.h"
+#include "tools/cli/print.h"
+#include "tools/cli/regenerate_command.h"
+#include "tools/cli/run_command.h"
+#include "tools/cli/verify_command.h"
+
+namespace emmy {
+namespace {
+
+std::string VersionText() {
+  const BuildInfo build = GetBuildInfo();
+  return "emmy " + build.version + "\nbuilt with " + build.compiler + ", " +
+         build.flags;
+}
+
+// What stands on standard error after a wrong command line.
+std::string UsageError(const CLI::App* app, const CLI::Error& error) {
+  std::string command = app->get_name();
+  for (const CLI::App* chosen : app->get_subcommands()) {
+    command += " " + chosen->get_name();
+  }
+  return command + ": " + error.what() + "\nRun " + command +
+         " --help for what there is.\n";
+}
+
+int Main(int argc, char** argv) {
+  CLI::App app("Emmy: rigid bodies and trusses by the energy-momentum method.",
+               "emmy");
+  app.set_version_flag("--version", VersionText());
+  app.failure_message(UsageError);
+  app.footer(R"(Examples:
+  emmy check examples/paper_box.json             what the model is
+  emmy run examples/paper_box.json               its summary, as JSON
+  emmy run examples/paper_box.json --output out  also its motion, as CSV
+  emmy run --help                                more on a command
+
+Exit status: 0 done; 1 a check failed or the computation could not go on;
+2 bad input or usage, nothing written.)");
+  const std::vector<Command> commands = {
+      AddRunCommand(app), AddCheckCommand(app), AddVerifyCommand(app),
+      AddRegenerateCommand(app), AddGenerateCommand(app)};
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? kExitDone : kExitBadInput;
+  }
+  for (const Command& command : commands) {
+    if (command.options->parsed()) return command.run();
+  }
+  return PrintError(absl::InvalidArgumentError("emmy: a command is required\n"
+                                               "Run emmy --help for what "
+                                               "there is."),
+                    kExitBadInput);
+}
+
+}  // namespace
+}  // namespace emmy
+
+int main(int argc, char** argv) {
+  try {
+    return emmy::Main(argc, argv);
+  } catch (const std::exception& error) {  // Such as: out of memory.
+    return emmy::PrintError(
+        absl::InternalError(std::string("internal error: ") + error.what()),
+        emmy::kExitFailed);
+  }
+}

@@ -1,0 +1,23 @@
+// The groups of claims; one file each.
+
+#ifndef EMMY_VERIFICATION_CLAIMS_GROUPS_H_
+#define EMMY_VERIFICATION_CLAIMS_GROUPS_H_
+
+#include <vector>
+
+#include "verification/claim.h"
+
+namespace emmy::verification {
+
+std::vector<Claim> ConservationClaims();  // conservation.cc
+std::vector<Claim> GrowthClaims();        // growth.cc
+std::vector<Claim> LargeStepClaims();     // large_steps.cc
+std::vector<Claim> PenaltyClaims();       // penalty.cc
+std::vector<Claim> OrderClaims();         // order.cc
+std::vector<Claim> ExternalClaims();      // external.cc
+std::vector<Claim> StructureClaims();     // structures.cc
+std::vector<Claim> FigureClaims();        // figures.cc
+
+}  // namespace emmy::verification
+
+#endif  // EMMY_VERIFICATION_CLAIMS_GROUPS_H_

@@ -1,0 +1,73 @@
+#include "verification/report/json_report.h"
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "emmy/base/build_info.h"
+#include "emmy/io/json_text.h"
+
+namespace emmy::verification {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json Number(double value) {
+  if (std::isfinite(value)) return value;
+  if (std::isnan(value)) return "nan";
+  return value > 0.0 ? "inf" : "-inf";
+}
+
+Json OutcomeJson(const Outcome& outcome) {
+  const Claim& claim = *outcome.claim;
+  Json json;
+  json["id"] = claim.id;
+  json["group"] = claim.group();
+  json["sentence"] = claim.sentence;
+  json["equations"] = claim.equations;
+  json["reference"] = ReferenceName(claim.reference);
+  json["metric"] = claim.metric;
+  json["unit"] = claim.unit;
+  json["bound"] = {{"lower", Number(claim.bound.lower)},
+                   {"upper", Number(claim.bound.upper)},
+                   {"derivation", claim.bound.derivation}};
+  json["pass"] = outcome.pass;
+  json["margin"] = Number(outcome.margin);
+  json["values"] = Json::array();
+  for (const MetricValue& value : outcome.result.values) {
+    json["values"].push_back(
+        {{"label", value.label}, {"value", Number(value.value)}});
+  }
+  json["failure"] = outcome.failure;
+  json["notes"] = outcome.result.notes;
+  json["figures"] = Json::array();
+  for (const Figure& figure : outcome.result.figures) {
+    json["figures"].push_back({{"title", figure.title},
+                               {"image", figure.name + ".svg"},
+                               {"data", figure.name + ".csv"},
+                               {"script", figure.name + ".gp"}});
+  }
+  json["command"] = claim.command() + " --level " + LevelName(outcome.level);
+  return json;
+}
+
+}  // namespace
+
+std::string JsonReport(const std::vector<Outcome>& outcomes) {
+  const BuildInfo build = GetBuildInfo();
+  Json json;
+  json["format"] = "emmy-report/1";
+  json["pass"] = std::all_of(outcomes.begin(), outcomes.end(),
+                             [](const Outcome& o) { return o.pass; });
+  json["level"] = outcomes.empty() ? "" : LevelName(outcomes[0].level);
+  json["build"] = {{"version", build.version},
+                   {"compiler", build.compiler},
+                   {"flags", build.flags}};
+  json["claims"] = Json::array();
+  for (const Outcome& outcome : outcomes) {
+    json["claims"].push_back(OutcomeJson(outcome));
+  }
+  return FormatJson(json);
+}
+
+}  // namespace emmy::verification

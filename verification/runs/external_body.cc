@@ -1,0 +1,121 @@
+#include "verification/runs/external_body.h"
+
+#include <nlohmann/json.hpp>
+
+#include "absl/status/status.h"
+#include "absl/strings/numbers.h"
+#include "absl/strings/str_cat.h"
+#include "emmy/io/json_text.h"
+#include "emmy/io/text_file.h"
+#include "verification/reference/project_directory.h"
+
+namespace emmy::verification {
+namespace {
+
+using Json = nlohmann::json;
+
+double Number(const Json& json) {
+  double value = 0.0;
+  // Rounds correctly, however many digits there are.
+  if (!absl::SimpleAtod(json.get<std::string>(), &value)) {
+    throw Json::other_error::create(501, "not a number: " + json.dump(), &json);
+  }
+  return value;
+}
+
+Vector3d Numbers(const Json& json) {
+  return {Number(json.at(0)), Number(json.at(1)), Number(json.at(2))};
+}
+
+ExternalState StateFromRow(const Json& row) {
+  ExternalState state;
+  state.time = Number(row.at(0));
+  for (int i = 0; i < 9; ++i) {
+    state.attitude(i / 3, i % 3) = Number(row.at(static_cast<size_t>(1 + i)));
+  }
+  for (int i = 0; i < 3; ++i) {
+    state.body_angular_velocity(i) =
+        Number(row.at(static_cast<size_t>(10 + i)));
+  }
+  return state;
+}
+
+ExternalBody BodyFromJson(const Json& json) {
+  ExternalBody body;
+  body.name = json.at("name").get<std::string>();
+  body.mass = Number(json.at("mass").at("value"));
+  body.inertia = Numbers(json.at("inertia").at("value"));
+  body.position = Numbers(json.at("position").at("value"));
+  body.velocity = Numbers(json.at("velocity").at("value"));
+  body.gravity = Numbers(json.at("gravity").at("value"));
+  body.body_angular_velocity =
+      Numbers(json.at("body_angular_velocity").at("value"));
+  if (json.contains("flip_times")) {
+    for (const Json& time : json.at("flip_times").at("value")) {
+      body.flip_times.push_back(Number(time));
+    }
+  }
+  for (const Json& row : json.at("rows")) {
+    body.states.push_back(StateFromRow(row));
+  }
+  return body;
+}
+
+ModelDescription Describe(const ExternalBody& external) {
+  RigidBodyDescription body;
+  body.name = external.name;
+  // Volume 1 m³, so that the penalty is the stiffness.
+  body.inertia = TensorInertia{.mass = external.mass,
+                               .tensor = external.inertia.asDiagonal(),
+                               .volume = 1.0};
+  body.position = external.position;
+  body.velocity = external.velocity;
+  body.angular_velocity = external.body_angular_velocity;
+  body.angular_velocity_in_body_axes = true;
+  ModelDescription model;
+  model.gravity = external.gravity;
+  model.rigid_bodies.push_back(body);
+  return model;
+}
+
+}  // namespace
+
+ModelDescription ExternalBody::Conventional() const {
+  ModelDescription model = Describe(*this);
+  model.rigid_bodies[0].formulation = Formulation::kConventional;
+  return model;
+}
+
+ModelDescription ExternalBody::Ancf(double stiffness) const {
+  ModelDescription model = Describe(*this);
+  model.rigid_bodies[0].formulation = Formulation::kAncf;
+  model.rigid_bodies[0].penalty = stiffness;
+  model.rigid_bodies[0].start = Start::kRelaxed;
+  return model;
+}
+
+absl::StatusOr<std::vector<ExternalBody>> ReadExternalBodies() {
+  const std::string path =
+      ProjectDirectory() + "/reference_data/external/free_rigid_bodies.json";
+  const absl::StatusOr<std::string> text = ReadTextFile(path, kMaxJsonBytes);
+  if (!text.ok()) {
+    return absl::NotFoundError(
+        absl::StrCat(path, ": ", text.status().message()));
+  }
+  const absl::StatusOr<Json> json = ParseJson(*text);
+  if (!json.ok()) {
+    return absl::DataLossError(
+        absl::StrCat(path, ": ", json.status().message()));
+  }
+  std::vector<ExternalBody> bodies;
+  try {
+    for (const Json& body : json->at("cases")) {
+      bodies.push_back(BodyFromJson(body));
+    }
+  } catch (const Json::exception& error) {
+    return absl::DataLossError(absl::StrCat(path, ": ", error.what()));
+  }
+  return bodies;
+}
+
+}  // namespace emmy::verification
