@@ -9,6 +9,7 @@
 #include "emmy/numerics/rotation.h"
 #include "verification/claims/groups.h"
 #include "verification/runs/external_body.h"
+#include "verification/runs/fit.h"
 #include "verification/runs/run.h"
 
 namespace emmy::verification {
@@ -101,24 +102,6 @@ absl::StatusOr<ClaimResult> Extrapolated(const ClaimSetting& setting) {
     }
   }
   return result;
-}
-
-// The time in [0, h] at which the cubic through two values and slopes is
-// zero, the values having opposite signs; by bisection.
-double ZeroOfCubic(double h, double y0, double slope0, double y1,
-                   double slope1) {
-  const auto cubic = [&](double s) {
-    const double r = 1.0 - s;
-    return r * r * ((1.0 + 2.0 * s) * y0 + s * h * slope0) +
-           s * s * ((3.0 - 2.0 * s) * y1 - r * h * slope1);
-  };
-  double low = 0.0;
-  double high = 1.0;
-  for (int i = 0; i < 60; ++i) {
-    const double middle = 0.5 * (low + high);
-    ((cubic(middle) > 0.0) == (y0 > 0.0) ? low : high) = middle;
-  }
-  return 0.5 * (low + high) * h;
 }
 
 absl::StatusOr<std::vector<double>> FlipTimes(

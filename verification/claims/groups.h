@@ -15,8 +15,10 @@ std::vector<Claim> LargeStepClaims();     // large_steps.cc
 std::vector<Claim> PenaltyClaims();       // penalty.cc
 std::vector<Claim> OrderClaims();         // order.cc
 std::vector<Claim> ExternalClaims();      // external.cc
-std::vector<Claim> StructureClaims();     // structures.cc
-std::vector<Claim> FigureClaims();        // figures.cc
+// external_structures.cc
+std::vector<Claim> ExternalStructureClaims();
+std::vector<Claim> StructureClaims();  // structures.cc
+std::vector<Claim> FigureClaims();     // figures.cc
 
 }  // namespace emmy::verification
 

@@ -46,4 +46,20 @@ std::vector<double> PowersOfTen(int first, int last, int increment) {
   return powers;
 }
 
+double ZeroOfCubic(double h, double y0, double slope0, double y1,
+                   double slope1) {
+  const auto cubic = [&](double s) {
+    const double r = 1.0 - s;
+    return r * r * ((1.0 + 2.0 * s) * y0 + s * h * slope0) +
+           s * s * ((3.0 - 2.0 * s) * y1 - r * h * slope1);
+  };
+  double low = 0.0;
+  double high = 1.0;
+  for (int i = 0; i < 60; ++i) {
+    const double middle = 0.5 * (low + high);
+    ((cubic(middle) > 0.0) == (y0 > 0.0) ? low : high) = middle;
+  }
+  return 0.5 * (low + high) * h;
+}
+
 }  // namespace emmy::verification

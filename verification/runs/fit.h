@@ -1,4 +1,4 @@
-// Straight lines through measurements, and percentiles of them.
+// Straight lines through measurements, their percentiles and zeros.
 
 #ifndef EMMY_VERIFICATION_RUNS_FIT_H_
 #define EMMY_VERIFICATION_RUNS_FIT_H_
@@ -17,6 +17,11 @@ double Percentile(std::vector<double> values, double fraction);
 
 // The powers of ten 10^first, …, 10^last.
 std::vector<double> PowersOfTen(int first, int last, int increment = 1);
+
+// The time in [0, h] at which the cubic through two values and slopes is
+// zero, the values having opposite signs; by bisection.
+double ZeroOfCubic(double h, double y0, double slope0, double y1,
+                   double slope1);
 
 }  // namespace emmy::verification
 

@@ -42,6 +42,17 @@ inline void AddCompensated(double increment, double& value,
   compensation = result.error;
 }
 
+// (SUM-2) for an increment with a low-order part of its own, which an addition
+// to the compensation alone would round off.
+inline void AddCompensated(double increment, double low_part, double& value,
+                           double& compensation) {
+  const SumAndError first = TwoSum(value, increment);
+  const SumAndError second =
+      TwoSum(first.sum, first.error + (compensation + low_part));
+  value = second.sum;
+  compensation = second.error;
+}
+
 // A number advanced by compensated summation.
 struct CompensatedDouble {
   double value = 0.0;

@@ -2,6 +2,7 @@
 
 #include <Eigen/Geometry>
 #include <Eigen/LU>
+#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -283,9 +284,13 @@ BodyStepResult CoupledStep::Iterate(bool exact) {
     } else {
       const bool rate_done =
           rate_monitor.Update(result.correction, floors.rate);
+      // Held by the ground, net force and moment carry the rounding of stiff
+      // elements, and no law asks them to vanish.
       const bool force_done =
+          structure_->is_grounded ||
           force_monitor.Update(force.cwiseAbs().maxCoeff(), floors.force);
       const bool moment_done =
+          structure_->is_grounded ||
           moment_monitor.Update(moment.cwiseAbs().maxCoeff(), floors.moment);
       const bool work_done = work_monitor.Update(work, floors.work);
       if (rate_done && force_done && moment_done && work_done) {
@@ -345,8 +350,12 @@ void CoupledStep::GuessRigidTurn() {
     add(entry.row, entry.column, entry.mass);
     if (entry.row != entry.column) add(entry.column, entry.row, entry.mass);
   }
-  const Matrix3d turn =
-      CayleyRotation(time_step_ * inertia.inverse() * momentum);
+  // A single point has no inertia to turn with.
+  const Eigen::ColPivHouseholderQR<Matrix3d> solver(inertia);
+  const Vector3d omega = solver.isInvertible()
+                             ? Vector3d(solver.solve(momentum))
+                             : Vector3d(Vector3d::Zero());
+  const Matrix3d turn = CayleyRotation(time_step_ * omega);
   for (int v = 0; v < structure_->num_vectors(); ++v) {
     dw_.col(v) = 2.0 * ((turn * arm(v) - arm(v)) / time_step_ - rate(v));
   }

@@ -9,6 +9,7 @@
 #include "absl/status/status.h"
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_format.h"
+#include "emmy/base/double_double.h"
 #include "emmy/model/validation.h"
 
 namespace emmy {
@@ -201,7 +202,14 @@ void EnergyMomentumIntegrator::CommitCentre(const ModelBody& body,
   const Vector3d mean_velocity =
       state.velocity.value.segment<3>(w) +
       (state.velocity.compensation.segment<3>(w) + 0.5 * velocity_increment);
-  state.position.Add(body.position_offset, dt * mean_velocity);
+  // With its rounding error: a free body's velocity is the same in every step,
+  // and so would be the rounding of the product, which then drifts.
+  for (int i = 0; i < 3; ++i) {
+    const SumAndError product = TwoProduct(dt, mean_velocity(i));
+    AddCompensated(product.sum, product.error,
+                   state.position.value(body.position_offset + i),
+                   state.position.compensation(body.position_offset + i));
+  }
   state.velocity.Add(w, velocity_increment);
 }
 

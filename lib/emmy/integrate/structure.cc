@@ -163,10 +163,15 @@ class Splitter {
           {&line, Local(line.difference.terms),
            static_cast<int>(structure.strain_offsets.size())});
       structure.strain_offsets.push_back(line.strain_offset);
+      if (line.ends[0].is_ground() || line.ends[1].is_ground()) {
+        structure.is_grounded = true;
+      }
     }
     for (size_t i = 0; i < model_.constraints().size(); ++i) {
       const ModelConstraint& constraint = model_.constraints()[i];
-      Of(constraint.terms).constraints.push_back({i, Local(constraint.terms)});
+      Structure& structure = Of(constraint.terms);
+      structure.constraints.push_back({i, Local(constraint.terms)});
+      if (constraint.to_ground) structure.is_grounded = true;
     }
     for (const ModelForce& force : model_.forces()) {
       if (!IsIncluded(force.point.terms)) continue;

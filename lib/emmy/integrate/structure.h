@@ -63,6 +63,9 @@ struct Structure {
            !has_added_mass;
   }
   bool has_added_mass = false;  // Nodes tied to the body.
+  // An element or a constraint ends at a point fixed in space, so that net
+  // force and moment need not vanish.
+  bool is_grounded = false;
 
   int num_vectors() const { return static_cast<int>(vectors.size()); }
   int num_constraints() const { return static_cast<int>(constraints.size()); }

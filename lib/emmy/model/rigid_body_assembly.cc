@@ -107,7 +107,8 @@ absl::StatusOr<Vector4d> MakeQuaternion(
                       "[0, 0, 0, 0]");
   }
   if (largest > 1e-100 && largest < 1e100) return q;
-  return (q / largest).eval();
+  // By a power of two, which rounds nothing.
+  return (q * std::ldexp(1.0, -std::ilogb(largest))).eval();
 }
 
 // The unit quaternion in extended precision.

@@ -3,7 +3,9 @@
 //   F = R̃ U, R̃ᵀR̃ = 1, det R̃ = 1, U symmetric positive definite   (ATT-1)
 //
 // By Newton's iteration X ← ½ (X + X⁻ᵀ) (Higham, Functions of Matrices,
-// SIAM 2008, 8.3), quadratically convergent for every F with det F > 0.
+// SIAM 2008, 8.3), quadratically convergent. The factors are good to about u
+// times the square of F's condition number, which is 1 for a rotation; beyond
+// 1e8 the determinant may be lost to rounding and F refused.
 
 #ifndef EMMY_NUMERICS_POLAR_H_
 #define EMMY_NUMERICS_POLAR_H_

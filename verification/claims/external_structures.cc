@@ -1,0 +1,231 @@
+// Mechanisms and structures that others have published.
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "absl/strings/str_format.h"
+#include "emmy/diagnostics/structure_motion.h"
+#include "verification/claims/groups.h"
+#include "verification/exact/pendulum.h"
+#include "verification/runs/external_table.h"
+#include "verification/runs/fit.h"
+#include "verification/runs/run.h"
+
+namespace emmy::verification {
+namespace {
+
+using Read = std::function<VectorXd(const Run&)>;
+
+// What `read` gives at the table's times after 0, one row a time.
+absl::StatusOr<MatrixXd> ReadAtTimes(const ExternalTable& table,
+                                     const ModelDescription& model,
+                                     double time_step, const Read& read,
+                                     const Scheme& scheme) {
+  absl::StatusOr<Run> run = Run::Start(model, time_step, scheme);
+  if (!run.ok()) return run.status();
+  MatrixXd values(table.time.size() - 1, table.values.cols());
+  for (Eigen::Index i = 0; i < values.rows(); ++i) {
+    const absl::Status status = run->Advance(
+        std::llround(table.time(i + 1) / time_step) - run->state().step);
+    if (!status.ok()) return status;
+    values.row(i) = read(*run).transpose();
+  }
+  return values;
+}
+
+// Steps h, h/2 and h/4, extrapolated twice: without the h² and h⁴ terms. One
+// value a time: the largest error; notes say how the plain runs did.
+absl::StatusOr<ClaimResult> ExtrapolatedErrors(const std::string& name,
+                                               double largest_step,
+                                               const Read& read,
+                                               const Scheme& scheme) {
+  const absl::StatusOr<ExternalTable> table = ReadExternalTable(name);
+  if (!table.ok()) return table.status();
+  const absl::StatusOr<ModelDescription> model = ReadExample(name);
+  if (!model.ok()) return model.status();
+  std::vector<MatrixXd> motions;
+  for (const double h :
+       {largest_step, largest_step / 2.0, largest_step / 4.0}) {
+    absl::StatusOr<MatrixXd> motion =
+        ReadAtTimes(*table, *model, h, read, scheme);
+    if (!motion.ok()) return motion.status();
+    motions.push_back(*std::move(motion));
+  }
+  const MatrixXd coarse = (4.0 * motions[1] - motions[0]) / 3.0;
+  const MatrixXd fine = (4.0 * motions[2] - motions[1]) / 3.0;
+  const MatrixXd finest = (16.0 * fine - coarse) / 15.0;
+  const MatrixXd published = table->values.bottomRows(finest.rows());
+  ClaimResult result;
+  for (Eigen::Index i = 0; i < finest.rows(); ++i) {
+    const auto error = [&](const MatrixXd& motion) {
+      return (motion.row(i) - published.row(i)).cwiseAbs().maxCoeff();
+    };
+    const std::string label = absl::StrFormat("t = %g s", table->time(i + 1));
+    result.values.push_back({label, error(finest)});
+    result.notes.push_back(absl::StrFormat(
+        "%s: %.2g, %.2g, %.2g at h, h/2, h/4, h = %g s; extrapolated once "
+        "%.2g",
+        label, error(motions[0]), error(motions[1]), error(motions[2]),
+        largest_step, error(fine)));
+  }
+  return result;
+}
+
+// --- Andrews' mechanism. ---------------------------------------------------
+
+// The source's angles β, Θ, γ, Φ, δ, Ω, ε: the bodies K1 to K7 are turned by
+// β, β + Θ, γ, Φ + δ, δ, Ω + ε, ε about z. Whole turns are taken from the
+// state one step before.
+class AndrewsAngles {
+ public:
+  VectorXd operator()(const Run& run) {
+    VectorXd turned(7);
+    for (size_t k = 0; k < 7; ++k) {
+      const Vector4d q = ObserveBody(run.model(), run.state(), k).quaternion;
+      turned(static_cast<Eigen::Index>(k)) = 2.0 * std::atan2(q(3), q(0));
+    }
+    VectorXd angles(7);
+    angles << turned(0), turned(1) - turned(0), turned(2),
+        turned(3) - turned(4), turned(4), turned(5) - turned(6), turned(6);
+    return angles;
+  }
+};
+
+absl::StatusOr<ClaimResult> Andrews(const ClaimSetting& setting) {
+  const absl::StatusOr<ExternalTable> table =
+      ReadExternalTable("andrews_squeezer");
+  if (!table.ok()) return table.status();
+  // The table's angles pass through whole turns, which an attitude does not
+  // tell: each reading is the angle nearest to the table's.
+  Eigen::Index row = 0;
+  const Read read = [&table, &row](const Run& run) {
+    row = row % (table->time.size() - 1) + 1;
+    const VectorXd nearest = table->values.row(row).transpose();
+    const VectorXd angles = AndrewsAngles()(run);
+    return VectorXd(nearest + (angles - nearest).unaryExpr([](double x) {
+      return std::remainder(x, 2.0 * M_PI);
+    }));
+  };
+  return ExtrapolatedErrors("andrews_squeezer", 1e-5, read, setting.scheme);
+}
+
+// --- Four particles. -------------------------------------------------------
+
+absl::StatusOr<ClaimResult> FourParticles(const ClaimSetting& setting) {
+  const Read read = [](const Run& run) {
+    VectorXd positions(12);
+    for (size_t k = 0; k < 4; ++k) {
+      positions.segment<3>(3 * static_cast<Eigen::Index>(k)) =
+          ObserveNode(run.model(), run.state(), k).position;
+    }
+    return positions;
+  };
+  return ExtrapolatedErrors("four_particles", 1.0 / 512.0, read,
+                            setting.scheme);
+}
+
+// --- The pendulum over hundreds of periods. --------------------------------
+
+// The time of the last of `count` passages through the vertical.
+absl::StatusOr<double> PassageTime(const ModelDescription& model,
+                                   double time_step, int count,
+                                   const Scheme& scheme) {
+  absl::StatusOr<Run> run = Run::Start(model, time_step, scheme);
+  if (!run.ok()) return run.status();
+  PointMotion before = ObserveNode(run->model(), run->state(), 0);
+  for (;;) {
+    const double time = run->state().time.value;
+    const absl::Status status = run->Advance(1);
+    if (!status.ok()) return status;
+    const PointMotion after = ObserveNode(run->model(), run->state(), 0);
+    if ((before.position(0) > 0.0) != (after.position(0) > 0.0) &&
+        --count == 0) {
+      return time + ZeroOfCubic(time_step, before.position(0),
+                                before.velocity(0), after.position(0),
+                                after.velocity(0));
+    }
+    before = after;
+  }
+}
+
+absl::StatusOr<ClaimResult> PendulumPhase(const ClaimSetting& setting) {
+  const absl::StatusOr<ModelDescription> model = ReadExample("simple_pendulum");
+  if (!model.ok()) return model.status();
+  const exact::Pendulum<double> pendulum(1.0, 9.81, 0.5 * M_PI);
+  const double half_period = 0.5 * pendulum.Period();
+  const double duration = setting.level == Level::kFull ? 2000.0 : 200.0;
+  // The first passage is a quarter of a period after the release.
+  const int count = static_cast<int>(duration / half_period + 0.5);
+  const double expected = (count - 0.5) * half_period;
+  std::vector<double> errors;
+  constexpr double kLargest = 1.0 / 128.0;
+  for (const double h : {kLargest, kLargest / 2.0, kLargest / 4.0}) {
+    const absl::StatusOr<double> time =
+        PassageTime(*model, h, count, setting.scheme);
+    if (!time.ok()) return time.status();
+    errors.push_back(*time - expected);
+  }
+  const double coarse = (4.0 * errors[1] - errors[0]) / 3.0;
+  const double fine = (4.0 * errors[2] - errors[1]) / 3.0;
+  ClaimResult result;
+  result.values.push_back({absl::StrFormat("passage %d", count),
+                           std::abs(16.0 * fine - coarse) / 15.0 / expected});
+  result.notes.push_back(absl::StrFormat(
+      "after %.6g s, late by %.3g, %.3g, %.3g s with h, h/2, h/4, h = 1/128 "
+      "s; extrapolated once %.3g, twice %.3g s",
+      expected, errors[0], errors[1], errors[2], fine,
+      (16.0 * fine - coarse) / 15.0));
+  return result;
+}
+
+}  // namespace
+
+std::vector<Claim> ExternalStructureClaims() {
+  std::vector<Claim> claims;
+  claims.push_back(
+      {.id = "external/andrews_angles",
+       .sentence = "Andrews' squeezing mechanism, seven bodies in closed "
+                   "loops, moves as published, by affine bodies and shared "
+                   "points.",
+       .equations = "(EM-9), (EM-12), (LINE-5); "
+                    "reference_data/external/andrews_squeezer.json",
+       .reference = Reference::kPublished,
+       .metric = "largest error of the seven angles at 0.01 ... 0.05 s, "
+                 "extrapolated from h, h/2, h/4, h = 1e-5 s",
+       .unit = "rad",
+       .bound = {.upper = 1e-8,
+                 .derivation = "what the published angles are good for"},
+       .measure = Andrews});
+  claims.push_back(
+      {.id = "external/four_particles",
+       .sentence = "Four particles on two stiff and two soft trusses move as "
+                   "published for rigid bars.",
+       .equations = "(LINE-3), (EM-9); "
+                    "reference_data/external/four_particles.json",
+       .reference = Reference::kPublished,
+       .metric = "largest error of a coordinate at 1 ... 10 s, extrapolated "
+                 "from h, h/2, h/4, h = 1/512 s",
+       .unit = "m",
+       .bound = {.upper = 1e-6, .derivation = "TODO"},
+       .measure = FourParticles});
+  claims.push_back(
+      {.id = "external/pendulum_phase",
+       .sentence = "A pendulum, a mass on a stiff truss, keeps the published "
+                   "period over hundreds of swings.",
+       .equations = "(PEN-4), (LINE-3); "
+                    "reference_data/external/simple_pendulum.json",
+       .reference = Reference::kPublished,
+       .metric = "relative error of the time of the last passage, "
+                 "extrapolated from h, h/2, h/4, h = 1/128 s",
+       .unit = "-",
+       .bound = {.upper = 1e-7, .derivation = "TODO"},
+       .measure = PendulumPhase});
+  return claims;
+}
+
+}  // namespace emmy::verification

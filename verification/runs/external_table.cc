@@ -1,0 +1,73 @@
+#include "verification/runs/external_table.h"
+
+#include <nlohmann/json.hpp>
+
+#include "absl/status/status.h"
+#include "absl/strings/numbers.h"
+#include "absl/strings/str_cat.h"
+#include "emmy/io/case_file.h"
+#include "emmy/io/json_text.h"
+#include "emmy/io/text_file.h"
+#include "verification/reference/project_directory.h"
+
+namespace emmy::verification {
+namespace {
+
+using Json = nlohmann::json;
+
+double Number(const Json& json) {
+  double value = 0.0;
+  // Rounds correctly, however many digits there are.
+  if (!absl::SimpleAtod(json.get<std::string>(), &value)) {
+    throw Json::other_error::create(501, "not a number: " + json.dump(), &json);
+  }
+  return value;
+}
+
+ExternalTable TableFromJson(const Json& json) {
+  const Json& rows = json.at("rows");
+  const auto num_rows = static_cast<Eigen::Index>(rows.size());
+  const auto num_columns =
+      static_cast<Eigen::Index>(json.at("columns").size()) - 1;
+  ExternalTable table{.time = VectorXd(num_rows),
+                      .values = MatrixXd(num_rows, num_columns)};
+  for (Eigen::Index i = 0; i < num_rows; ++i) {
+    const Json& row = rows.at(static_cast<size_t>(i));
+    table.time(i) = Number(row.at(0));
+    for (Eigen::Index j = 0; j < num_columns; ++j) {
+      table.values(i, j) = Number(row.at(static_cast<size_t>(j) + 1));
+    }
+  }
+  return table;
+}
+
+}  // namespace
+
+absl::StatusOr<ExternalTable> ReadExternalTable(const std::string& name) {
+  const std::string path = absl::StrCat(
+      ProjectDirectory(), "/reference_data/external/", name, ".json");
+  const absl::StatusOr<std::string> text = ReadTextFile(path, kMaxJsonBytes);
+  if (!text.ok()) {
+    return absl::NotFoundError(
+        absl::StrCat(path, ": ", text.status().message()));
+  }
+  const absl::StatusOr<Json> json = ParseJson(*text);
+  if (!json.ok()) {
+    return absl::DataLossError(
+        absl::StrCat(path, ": ", json.status().message()));
+  }
+  try {
+    return TableFromJson(*json);
+  } catch (const Json::exception& error) {
+    return absl::DataLossError(absl::StrCat(path, ": ", error.what()));
+  }
+}
+
+absl::StatusOr<ModelDescription> ReadExample(const std::string& name) {
+  absl::StatusOr<Case> example = ReadCaseFile(
+      absl::StrCat(ProjectDirectory(), "/examples/", name, ".json"));
+  if (!example.ok()) return example.status();
+  return std::move(example->model);
+}
+
+}  // namespace emmy::verification
