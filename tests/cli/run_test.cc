@@ -196,7 +196,8 @@ TEST_F(CheckTest, AcceptsEveryExample) {
 class HelpTest : public ProgramTest {};
 
 TEST_F(HelpTest, EveryCommandHasHelpWithExamples) {
-  for (const char* arguments : {"--help", "run --help", "check --help"}) {
+  for (const char* arguments :
+       {"--help", "run --help", "check --help", "generate --help"}) {
     const ProgramResult result = Run(arguments);
     EXPECT_EQ(result.exit_status, 0) << arguments;
     EXPECT_EQ(result.err, "") << arguments;
@@ -205,7 +206,8 @@ TEST_F(HelpTest, EveryCommandHasHelpWithExamples) {
 }
 
 TEST_F(HelpTest, FitsATerminal) {
-  for (const char* arguments : {"--help", "run --help", "check --help"}) {
+  for (const char* arguments :
+       {"--help", "run --help", "check --help", "generate --help"}) {
     const std::vector<std::string> lines =
         absl::StrSplit(Run(arguments).out, '\n');
     for (const std::string& line : lines) {

@@ -3,7 +3,6 @@
 #ifndef EMMY_TESTS_EXACT_EQUATION_RESIDUAL_H_
 #define EMMY_TESTS_EXACT_EQUATION_RESIDUAL_H_
 
-#include <array>
 #include <cmath>
 #include <functional>
 

@@ -6,6 +6,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <vector>
 
 #include "tests/exact/regimes.h"
 #include "verification/exact/symmetric_top.h"

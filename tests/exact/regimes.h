@@ -4,6 +4,8 @@
 #ifndef EMMY_TESTS_EXACT_REGIMES_H_
 #define EMMY_TESTS_EXACT_REGIMES_H_
 
+#include <gtest/gtest.h>
+
 #include <algorithm>
 #include <ostream>
 #include <string>

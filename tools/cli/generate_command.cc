@@ -50,14 +50,10 @@ Command AddGenerateCommand(CLI::App& app) {
   const auto arguments = std::make_shared<Arguments>();
   std::vector<std::string> names;
   for (const auto& [name, make] : Models()) names.push_back(name);
-  options
-      ->add_option("MODEL", arguments->model,
-                   "net: spinning square net of N x N nodes with a hub; "
-                   "cable_net: the same of cables that go slack; chain: N "
-                   "boxes with spherical joints; trussed_boxes: N boxes "
-                   "joined by trusses")
+  options->add_option("MODEL", arguments->model, "Which, see below")
       ->required()
-      ->check(CLI::IsMember(names));
+      ->check(CLI::IsMember(names))
+      ->type_name("");
   options->add_option("--size", arguments->size, "N, at least 2")
       ->required()
       ->check(CLI::Range(2, 10000000))
@@ -66,7 +62,13 @@ Command AddGenerateCommand(CLI::App& app) {
       ->add_option("--output", arguments->output,
                    "File to write; standard output if not given")
       ->type_name("FILE");
-  options->footer(R"(Examples:
+  options->footer(R"(Models, of size N:
+  net            a spinning square net of N x N nodes with a hub
+  cable_net      the same of cables, which go slack and taut
+  chain          N boxes joined by spherical joints
+  trussed_boxes  N boxes, neighbours joined by four trusses
+
+Examples:
   emmy generate net --size 60 --output net_60.json
   emmy run net_60.json --steps 20)");
   return {options, [arguments] { return Generate(*arguments); }};

@@ -73,7 +73,7 @@ ExitStatus Regenerate(const Arguments& arguments) {
 
 Command AddRegenerateCommand(CLI::App& app) {
   CLI::App* options = app.add_subcommand(
-      "regenerate", "Compute the project's reference data and figures anew");
+      "regenerate", "Compute reference data and figures anew");
   const auto arguments = std::make_shared<Arguments>();
   options
       ->add_option("--only", arguments->only, "Only this one; may be repeated")

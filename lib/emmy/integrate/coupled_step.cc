@@ -187,7 +187,8 @@ void CoupledStep::Evaluate() {
 }
 
 CoupledStep::Floors CoupledStep::RoundingFloors() const {
-  const double rate = MaxAbs(mean_rate_);
+  // By terms here too: where a motion turns back, w₀ and ½ Δw cancel.
+  const double rate = std::max(MaxAbs(w0_), MaxAbs(mean_rate_));
   double force = 0.0;
   double moment = 0.0;
   double work = 0.0;

@@ -1,0 +1,237 @@
+// What is wrong with nodes, elements, shared points and loads, and how
+// BuildModel says so.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <ostream>
+#include <string>
+
+#include "emmy/model/model_builder.h"
+#include "tests/support/paper_box.h"
+
+namespace emmy {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using ::testing::StartsWith;
+
+NodeDescription Node(const std::string& name, const Vector3d& position,
+                     double mass = 1.0) {
+  NodeDescription node;
+  node.name = name;
+  node.position = position;
+  node.mass = mass;
+  return node;
+}
+
+TrussDescription Truss(const PointDescription& first,
+                       const PointDescription& second) {
+  TrussDescription truss;
+  truss.name = "truss";
+  truss.ends = {first, second};
+  truss.area = 1e-4;
+  truss.density = 2700.0;
+  truss.young_modulus = 7e10;
+  return truss;
+}
+
+// A resting box and two nodes with mass, joined by a truss.
+ModelDescription Sound() {
+  RigidBodyDescription box = PaperBox();
+  box.angular_velocity.setZero();
+  ModelDescription model = ModelOf(box);
+  model.nodes = {Node("a", {2.0, 0.0, 0.0}), Node("b", {3.0, 0.0, 0.0})};
+  model.trusses = {Truss(NodePoint{"a"}, NodePoint{"b"})};
+  return model;
+}
+
+// Two boxes side by side, joined where they touch.
+ModelDescription TwoBoxes(Formulation formulation = Formulation::kAncf) {
+  RigidBodyDescription left = PaperBox(formulation);
+  left.angular_velocity.setZero();
+  RigidBodyDescription right = left;
+  right.name = "right";
+  right.position = {3.0, 0.0, 0.0};
+  ModelDescription model = ModelOf(left);
+  model.rigid_bodies.push_back(right);
+  model.shared_points.push_back({BodyPoint{"box", {1.5, 0.0, 0.0}},
+                                 BodyPoint{"right", {-1.5, 0.0, 0.0}}});
+  return model;
+}
+
+TEST(StructureTest, SoundModelsAreAccepted) {
+  EXPECT_TRUE(BuildModel(Sound()).ok());
+  EXPECT_TRUE(BuildModel(TwoBoxes()).ok());
+}
+
+struct Mistake {
+  const char* name;
+  std::function<void(ModelDescription&)> make;
+  const char* place;   // How the message begins.
+  const char* reason;  // What it says.
+  friend void PrintTo(const Mistake& m, std::ostream* os) { *os << m.name; }
+};
+
+class StructureMistakeTest : public ::testing::TestWithParam<Mistake> {};
+
+TEST_P(StructureMistakeTest, IsRejectedWithTheItemAndTheReason) {
+  ModelDescription model = Sound();
+  GetParam().make(model);
+  const auto built = BuildModel(model);
+  ASSERT_FALSE(built.ok());
+  EXPECT_EQ(built.status().code(), absl::StatusCode::kInvalidArgument);
+  EXPECT_THAT(
+      std::string(built.status().message()),
+      AllOf(StartsWith(GetParam().place), HasSubstr(GetParam().reason)));
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Mistakes, StructureMistakeTest,
+    ::testing::Values(
+        Mistake{"ZeroLengthTruss",
+                [](auto& m) { m.nodes[1].position = m.nodes[0].position; },
+                "/trusses/0/ends: ", "got a distance of 0"},
+        Mistake{"TrussFromAPointToItself",
+                [](auto& m) {
+                  m.trusses[0].ends[1] = m.trusses[0].ends[0];
+                  m.trusses[0].length = 1.0;
+                },
+                "/trusses/0/ends: ", "two points that can move apart"},
+        Mistake{"NegativeArea", [](auto& m) { m.trusses[0].area = -1.0; },
+                "/trusses/0/area: ", "got -1"},
+        Mistake{"NegativeDensity", [](auto& m) { m.trusses[0].density = -1.0; },
+                "/trusses/0/density: ", "got -1"},
+        Mistake{"NoStiffness",
+                [](auto& m) { m.trusses[0].young_modulus = 0.0; },
+                "/trusses/0/young_modulus: ", "got 0"},
+        Mistake{"NoSuchBody",
+                [](auto& m) {
+                  m.trusses[0].ends[0] = BodyPoint{"bax", Vector3d::Zero()};
+                },
+                "/trusses/0/ends/0/body: ", "got \"bax\""},
+        Mistake{"NoSuchNode",
+                [](auto& m) { m.trusses[0].ends[1] = NodePoint{"c"}; },
+                "/trusses/0/ends/1/node: ", "got \"c\""},
+        Mistake{"BodyGivenAsNode",
+                [](auto& m) { m.trusses[0].ends[1] = NodePoint{"box"}; },
+                "/trusses/0/ends/1/node: ", "the name of a node"},
+        Mistake{"NameTwice", [](auto& m) { m.nodes[1].name = "box"; },
+                "/nodes/1/name: ", "which is the name of /rigid_bodies/0"},
+        Mistake{"NegativeMass", [](auto& m) { m.nodes[0].mass = -1.0; },
+                "/nodes/0/mass: ", "got -1"},
+        Mistake{"MovesWithNobody",
+                [](auto& m) { m.nodes[0].velocity = MovesWith{"nobody"}; },
+                "/nodes/0/velocity/moves_with: ", "got \"nobody\""},
+        Mistake{"FixedNodeThatMoves",
+                [](auto& m) {
+                  m.nodes[0].fixed = true;
+                  m.nodes[0].velocity = Vector3d(1.0, 0.0, 0.0);
+                },
+                "/nodes/0/velocity: ", "zero for a fixed node"},
+        Mistake{"MasslessNodeAlone",
+                [](auto& m) {
+                  m.nodes.push_back(Node("c", {9.0, 9.0, 9.0}, 0.0));
+                },
+                "/nodes/2: node \"c\"",
+                "must have mass or be attached to something, got neither"},
+        Mistake{"MasslessNodeOnMasslessElements",
+                [](auto& m) {
+                  m.nodes[1].mass = 0.0;
+                  m.trusses[0].density = 0.0;
+                },
+                "/nodes/1: node \"b\"", "the mass matrix is singular"},
+        Mistake{"SharedPointsApart",
+                [](auto& m) {
+                  m.shared_points.push_back(
+                      {NodePoint{"a"}, BodyPoint{"box", {1.5, 0.0, 0.0}}});
+                },
+                "/shared_points/0: ", "got a gap of 0.5 m"},
+        Mistake{"SharedPointsThatMoveApart",
+                [](auto& m) {
+                  m.nodes[0].velocity = Vector3d(0.0, 0.25, 0.0);
+                  m.shared_points.push_back(
+                      {NodePoint{"a"}, BodyPoint{"box", {2.0, 0.0, 0.0}}});
+                },
+                "/shared_points/0: must move alike", "0.25 m/s apart"},
+        Mistake{"NoDegreeOfFreedom",
+                [](auto& m) {
+                  m.rigid_bodies.clear();
+                  m.trusses.clear();
+                  m.nodes[0].fixed = true;
+                  m.nodes[1].fixed = true;
+                },
+                "", "degree of freedom"},
+        Mistake{"ForceThatIsNoNumber",
+                [](auto& m) {
+                  m.loads.push_back(ForceLoad{NodePoint{"a"}, {0.0, NAN, 0.0}});
+                },
+                "/loads/0/force", "finite"},
+        Mistake{"TorqueOnNobody",
+                [](auto& m) {
+                  m.loads.push_back(TorqueLoad{"nobody", {0.0, 0.0, 1.0}});
+                },
+                "/loads/0/body: ", "got \"nobody\""},
+        Mistake{"SpringWithoutStiffness",
+                [](auto& m) {
+                  m.springs.push_back(
+                      {"spring", {NodePoint{"a"}, NodePoint{"b"}}, 0.0, 1.0});
+                },
+                "/springs/0/stiffness: ", "got 0"}),
+    [](const auto& mistake) { return mistake.param.name; });
+
+TEST(SharedPointTest, RedundantPointsOfAHingeAreDropped) {
+  ModelDescription hinge = TwoBoxes();
+  for (const double y : {-0.5, 0.5, 0.25}) {
+    hinge.shared_points.push_back(
+        {BodyPoint{"box", {1.5, y, 0.0}}, BodyPoint{"right", {-1.5, y, 0.0}}});
+  }
+  const auto built = BuildModel(hinge);
+  ASSERT_TRUE(built.ok()) << built.status().message();
+  EXPECT_EQ(built->model.constraints().size(), 2U);
+  EXPECT_EQ(built->model.degrees_of_freedom(), 24 - 6);
+}
+
+TEST(SharedPointTest, AnInconsistentThirdPointIsRejectedWithTheGap) {
+  ModelDescription hinge = TwoBoxes();
+  hinge.shared_points.push_back({BodyPoint{"box", {1.5, 0.5, 0.0}},
+                                 BodyPoint{"right", {-1.5, 0.5, 0.125}}});
+  const auto built = BuildModel(hinge);
+  ASSERT_FALSE(built.ok());
+  EXPECT_THAT(std::string(built.status().message()),
+              AllOf(StartsWith("/shared_points/1: must coincide"),
+                    HasSubstr("a gap of 0.125 m")));
+}
+
+TEST(SharedPointTest, AGapThroughAChainOfNodesIsFound) {
+  ModelDescription model = TwoBoxes();
+  model.shared_points.clear();
+  NodeDescription node = Node("pin", {1.5, 0.0, 0.0}, 0.0);
+  model.nodes.push_back(node);
+  node.name = "other";
+  model.nodes.push_back(node);
+  model.shared_points = {
+      {NodePoint{"pin"}, BodyPoint{"box", {1.5, 0.0, 0.0}}},
+      {NodePoint{"pin"}, NodePoint{"other"}},
+      {NodePoint{"other"}, BodyPoint{"right", {-1.5, 0.25, 0.0}}}};
+  const auto built = BuildModel(model);
+  ASSERT_FALSE(built.ok());
+  EXPECT_THAT(
+      std::string(built.status().message()),
+      AllOf(StartsWith("/shared_points/2: "), HasSubstr("a gap of 0.25 m")));
+}
+
+TEST(SharedPointTest, OfConventionalBodiesIsNotSupportedAndSaysSo) {
+  const auto built = BuildModel(TwoBoxes(Formulation::kConventional));
+  ASSERT_FALSE(built.ok());
+  EXPECT_EQ(built.status().code(), absl::StatusCode::kUnimplemented);
+  EXPECT_THAT(std::string(built.status().message()),
+              AllOf(StartsWith("/shared_points/0: "),
+                    HasSubstr("conventional bodies are not supported yet")));
+}
+
+}  // namespace
+}  // namespace emmy
