@@ -448,6 +448,7 @@ BodyStepResult ConventionalStructureStep::Iterate() {
   StagnationMonitor work_monitor;
   StagnationMonitor moment_monitor;
   double previous = std::numeric_limits<double>::infinity();
+  int settled = 0;
   for (int i = 1; i <= options_.max_iterations; ++i) {
     result.iterations = i;
     Evaluate();
@@ -489,7 +490,9 @@ BodyStepResult ConventionalStructureStep::Iterate() {
     const bool work_done = work_monitor.Update(work, residual_floor * rate);
     const bool moment_done =
         moment_monitor.Update(moment, residual_floor * std::max(1.0, size));
-    if (rate_done && work_done && moment_done) {
+    if (rate_done) ++settled;
+    if (rate_done &&
+        ((work_done && moment_done) || settled > kStagnationPatience)) {
       result.termination = Termination::kConverged;
       return result;
     }

@@ -237,6 +237,7 @@ BodyStepResult CoupledStep::Iterate(bool exact) {
   StagnationMonitor work_monitor;
   double previous = std::numeric_limits<double>::infinity();
   int slow = 0;
+  int settled = 0;
   bool renewed = false;
   for (int i = 1; i <= options_.newton.max_iterations; ++i) {
     result.iterations = i;
@@ -272,7 +273,11 @@ BodyStepResult CoupledStep::Iterate(bool exact) {
     dw_ -= correction_;
     impulse_ -= impulse_correction_;
     result.correction = MaxAbs(correction_);
-    if (!std::isfinite(result.correction)) {
+    // An iterate that has run away can make corrections vanish: what it is
+    // judged by must be finite as well.
+    if (!std::isfinite(result.correction) || !std::isfinite(work) ||
+        !std::isfinite(floors.work) || !std::isfinite(floors.force) ||
+        !std::isfinite(floors.moment) || !residual_.allFinite()) {
       result.termination = Termination::kNonFinite;
       return result;
     }
@@ -294,7 +299,9 @@ BodyStepResult CoupledStep::Iterate(bool exact) {
           structure_->is_grounded ||
           moment_monitor.Update(moment.cwiseAbs().maxCoeff(), floors.moment);
       const bool work_done = work_monitor.Update(work, floors.work);
-      if (rate_done && force_done && moment_done && work_done) {
+      if (rate_done) ++settled;
+      if (rate_done && ((force_done && moment_done && work_done) ||
+                        settled > kStagnationPatience)) {
         // Slow: renewed before the next step, where it costs no iteration.
         constexpr int kManyIterations = 12;
         if (i > kManyIterations || slow > 1) renew_ = true;

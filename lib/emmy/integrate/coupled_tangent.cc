@@ -4,6 +4,7 @@
 #include <Eigen/LU>
 #include <Eigen/SVD>
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "emmy/element/ancf_rigid_body.h"
@@ -221,6 +222,13 @@ void CoupledTangent::FollowStructure(const Matrix3Xd& mean_positions) {
   if (mass > 0.0) moment -= centre * old_centre.transpose() / mass;
   const Eigen::JacobiSVD<Matrix3d> svd(
       moment, Eigen::ComputeFullU | Eigen::ComputeFullV);
+  // A single point, or several in one place, have no attitude.
+  double spread = 0.0;
+  for (const Structure::Mass& entry : structure_->masses) {
+    spread += std::abs(entry.mass) * mean_positions.col(entry.row).norm() *
+              positions_.col(entry.column).norm();
+  }
+  if (!(svd.singularValues()(0) > 1e-10 * spread)) return;
   Vector3d signs = Vector3d::Ones();
   if ((svd.matrixU() * svd.matrixV().transpose()).determinant() < 0.0) {
     signs(2) = -1.0;

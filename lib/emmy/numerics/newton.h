@@ -33,6 +33,11 @@ struct [[nodiscard]] StepReport {
   bool ok() const { return termination == Termination::kConverged; }
 };
 
+// Iterations after corrections have reached round-off in which the finer
+// measures (net moment, work) may still settle. What has not shrunk by then is
+// their rounding, whatever its estimate says.
+inline constexpr int kStagnationPatience = 20;
+
 // Judges when one sequence of corrections has reached round-off.     (EM-5)
 //
 // `floor` is the size that rounding alone can give a correction, from the
