@@ -369,9 +369,46 @@ void CoupledStep::GuessRigidTurn() {
   }
 }
 
+// Whether the residual's work (EM-7) is small against the energy of the start.
+// An iterate that has run away is solved to the round-off of its own size,
+// which may be more than all the energy there is.
+bool CoupledStep::KeepsEnergy() const {
+  if (options_.newton.tolerance.has_value()) return true;
+  constexpr double kLargestShare = 1e-8;
+  double energy = 0.0;
+  for (const Structure::Mass& mass : structure_->masses) {
+    const double product =
+        mass.mass * w0_.col(mass.row).dot(w0_.col(mass.column));
+    energy += mass.row == mass.column ? 0.5 * product : product;
+  }
+  for (const Structure::Body& body : structure_->bodies) {
+    energy += body.body->ancf()->PenaltyEnergy(
+        strain0_.segment<6>(body.first_strain));
+  }
+  for (const Structure::Line& line : structure_->lines) {
+    energy += line.line->element.Energy(strain0_(line.strain)).ToDouble();
+  }
+  // Loads may do more work in a step than there is energy to start with.
+  const double load_work =
+      (structure_->gravity_force.cwiseAbs().cwiseProduct(dq_.cwiseAbs()))
+          .sum() +
+      std::abs(LoadWork());
+  const double work = std::abs(mean_rate_.cwiseProduct(residual_).sum());
+  return work <= kLargestShare * (energy + load_work);
+}
+
+BodyStepResult CoupledStep::IterateAndCheck(bool exact) {
+  BodyStepResult result = Iterate(exact);
+  Evaluate();  // Δq and Δε of the final Δw.
+  if (result.termination == Termination::kConverged && !KeepsEnergy()) {
+    result.termination = Termination::kMaxIterations;
+  }
+  return result;
+}
+
 BodyStepResult CoupledStep::Solve(const State& state) {
   Load(state);
-  BodyStepResult result = Iterate(/*exact=*/false);
+  BodyStepResult result = IterateAndCheck(/*exact=*/false);
   int iterations = result.iterations;
   // Once more from a start without strain, then with the exact Jacobian.
   for (const bool exact : {false, true}) {
@@ -379,16 +416,16 @@ BodyStepResult CoupledStep::Solve(const State& state) {
     Load(state);
     GuessRigidTurn();
     renew_ = true;
-    result = Iterate(exact);
+    result = IterateAndCheck(exact);
     iterations += result.iterations;
   }
   result.iterations = iterations;
   if (result.termination != Termination::kConverged) renew_ = true;
-  Evaluate();  // Δq and Δε of the final Δw.
   return result;
 }
 
-void CoupledStep::Commit(State& state) const {
+// Work of the loads along the last solution [J].
+double CoupledStep::LoadWork() const {
   double work = 0.0;
   for (const Structure::Force& force : structure_->forces) {
     for (const WeightedVector& term : force.terms) {
@@ -404,7 +441,11 @@ void CoupledStep::Commit(State& state) const {
           torque.torque.cross(duals.col(i)).dot(dq_.col(torque.first + 1 + i));
     }
   }
-  state.load_work.Add(work);
+  return work;
+}
+
+void CoupledStep::Commit(State& state) const {
+  state.load_work.Add(LoadWork());
   for (Eigen::Index v = 0; v < structure_->num_vectors(); ++v) {
     const auto [q, w, moment] = structure_->vectors[static_cast<size_t>(v)];
     state.position.Add(q, dq_.col(v));

@@ -69,6 +69,9 @@ class CoupledStep {
   bool Renew();
   bool SolveCorrection(bool exact);
   BodyStepResult Iterate(bool exact);
+  BodyStepResult IterateAndCheck(bool exact);
+  bool KeepsEnergy() const;
+  double LoadWork() const;
   void GuessRigidTurn();
   Floors RoundingFloors() const;
   TangentPoint Point() const {
