@@ -27,10 +27,10 @@ CoupledStep::CoupledStep(const Structure& structure, double time_step,
     : structure_(&structure),
       time_step_(time_step),
       options_(options),
-      tangent_(structure, time_step, options.method) {
+      tangent_(structure, time_step, options.method),
+      lines_(structure) {
   const Eigen::Index vectors = structure.num_vectors();
   const Eigen::Index constraints = structure.num_constraints();
-  const auto lines = static_cast<Eigen::Index>(structure.lines.size());
   const auto strains =
       static_cast<Eigen::Index>(structure.strain_offsets.size());
   for (Matrix3Xd* m :
@@ -42,11 +42,6 @@ CoupledStep::CoupledStep(const Structure& structure, double time_step,
   for (Matrix3Xd* m : {&impulse_, &constraint_rate_, &impulse_correction_}) {
     m->setZero(3, constraints);
   }
-  for (Matrix3Xd* m : {&line_start_, &line_mean_, &line_end_}) {
-    m->setZero(3, lines);
-  }
-  line_tension_.setZero(lines);
-  line_derivative_.setZero(lines);
   for (VectorXd* v : {&strain0_, &strain0_compensation_, &strain_increment_}) {
     v->setZero(strains);
   }
@@ -72,16 +67,7 @@ void CoupledStep::Load(const State& state) {
     impulse_.col(c) = time_step_ * state.multiplier_guess.segment<3>(
                                        3 * static_cast<Eigen::Index>(index));
   }
-  // From the values alone: neighbours' difference is exact or nearly so,
-  // while a difference of means would carry the rounding of large positions.
-  for (size_t i = 0; i < structure_->lines.size(); ++i) {
-    const Structure::Line& line = structure_->lines[i];
-    Vector3d d = line.line->difference.ground;
-    for (const WeightedVector& term : line.terms) {
-      d += term.weight * q0_.col(term.vector);
-    }
-    line_start_.col(static_cast<Eigen::Index>(i)) = d;
-  }
+  lines_.Load(q0_, q0_compensation_);
 }
 
 void CoupledStep::EvaluateBodies() {
@@ -100,34 +86,6 @@ void CoupledStep::EvaluateBodies() {
     residual_.middleCols<3>(body.first + 1) += impulse;
     magnitude_.segment<3>(body.first + 1) +=
         impulse.cwiseAbs().colwise().maxCoeff().transpose();
-  }
-}
-
-void CoupledStep::EvaluateLines() {
-  for (size_t i = 0; i < structure_->lines.size(); ++i) {
-    const Structure::Line& line = structure_->lines[i];
-    const auto column = static_cast<Eigen::Index>(i);
-    Vector3d change = Vector3d::Zero();  // Δd
-    Vector3d rest = Vector3d::Zero();    // Compensations of d₀.
-    for (const WeightedVector& term : line.terms) {
-      change += term.weight * dq_.col(term.vector);
-      rest += term.weight * q0_compensation_.col(term.vector);
-    }
-    const Vector3d d = line_start_.col(column) + (rest + 0.5 * change);
-    const LineElement::Response response = line.line->element.Respond(
-        strain0_(line.strain), strain0_compensation_(line.strain),
-        d.dot(change));
-    strain_increment_(line.strain) = response.increment;
-    line_mean_.col(column) = d;
-    line_end_.col(column) = d + 0.5 * change;
-    line_tension_(column) = response.tension_factor;
-    line_derivative_(column) = response.derivative;
-    const Vector3d impulse = (time_step_ * response.tension_factor) * d;
-    const double size = impulse.cwiseAbs().maxCoeff();
-    for (const WeightedVector& term : line.terms) {
-      residual_.col(term.vector) += term.weight * impulse;
-      magnitude_(term.vector) += std::abs(term.weight) * size;
-    }
   }
 }
 
@@ -181,7 +139,8 @@ void CoupledStep::Evaluate() {
   magnitude_ = residual_.cwiseAbs().colwise().maxCoeff().transpose();
   residual_.noalias() -= time_step_ * structure_->gravity_force;
   EvaluateBodies();
-  EvaluateLines();
+  lines_.Evaluate(time_step_, dq_, strain0_, strain0_compensation_,
+                  &strain_increment_, &residual_, &magnitude_);
   EvaluateLoads();
   EvaluateConstraints();
 }
@@ -220,11 +179,11 @@ bool CoupledStep::SolveCorrection(bool exact) {
   }
   const VectorXd mean_strain =
       strain0_ + (strain0_compensation_ + 0.5 * strain_increment_);
-  return SolveExactTangent(*structure_, time_step_,
-                           {mean_, end_, mean_strain, line_mean_, line_end_,
-                            line_tension_, line_derivative_},
-                           residual_, constraint_rate_, &correction_,
-                           &impulse_correction_);
+  return SolveExactTangent(
+      *structure_, time_step_,
+      {mean_, end_, mean_strain, lines_.mean(), lines_.End(dq_),
+       lines_.tension(), lines_.derivative()},
+      residual_, constraint_rate_, &correction_, &impulse_correction_);
 }
 
 BodyStepResult CoupledStep::Iterate(bool exact) {

@@ -24,6 +24,7 @@
 #include "emmy/integrate/ancf_body_step.h"
 #include "emmy/integrate/coupled_tangent.h"
 #include "emmy/integrate/structure.h"
+#include "emmy/integrate/structure_lines.h"
 #include "emmy/model/state.h"
 #include "emmy/numerics/newton.h"
 #include "emmy/numerics/symmetric_factor.h"
@@ -63,7 +64,6 @@ class CoupledStep {
   void Load(const State& state);
   void Evaluate();
   void EvaluateBodies();
-  void EvaluateLines();
   void EvaluateLoads();
   void EvaluateConstraints();
   bool Renew();
@@ -75,7 +75,7 @@ class CoupledStep {
   void GuessRigidTurn();
   Floors RoundingFloors() const;
   TangentPoint Point() const {
-    return {mean_, line_mean_, line_tension_, line_derivative_};
+    return {mean_, lines_.mean(), lines_.tension(), lines_.derivative()};
   }
 
   const Structure* structure_;
@@ -87,13 +87,12 @@ class CoupledStep {
   // The start of the step.
   Matrix3Xd q0_, q0_compensation_, w0_, w0_compensation_;
   VectorXd strain0_, strain0_compensation_;
-  Matrix3Xd line_start_;  // d₀ of each line, from the values alone.
   // The iterate, and what follows from it.
   Matrix3Xd dw_, mean_rate_, dq_, mean_, end_, residual_;
   VectorXd magnitude_;  // Sum of the sizes of a residual's terms.
   Matrix3Xd impulse_, constraint_rate_;  // Δt λ [N s], G w̄.
-  Matrix3Xd line_mean_, line_end_;       // d̄, d₁
-  VectorXd line_tension_, line_derivative_, strain_increment_;
+  StructureLines lines_;
+  VectorXd strain_increment_;
   // Corrections.
   Matrix3Xd correction_, impulse_correction_;
 };

@@ -2,123 +2,172 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <limits>
+
+#include "emmy/numerics/panel_product.h"
 
 namespace emmy {
 namespace {
 
-// Whether the pattern of `next` is that of the column before it, less its
-// first row, which is `next` itself.
-bool Continues(const Eigen::SparseMatrix<double>& lower, int next) {
-  const int* outer = lower.outerIndexPtr();
-  const int* inner = lower.innerIndexPtr();
-  const int size = outer[next + 1] - outer[next];
-  const int before = outer[next - 1];
-  return outer[next] - before == size + 1 && inner[before] == next &&
-         std::equal(inner + before + 1, inner + outer[next],
-                    inner + outer[next]);
+// Whether merging is worth it: `zeros` of `size` numbers are stored for
+// nothing, but wider panels have fewer sums to scatter.
+bool PaysToMerge(int columns, double zeros, double size) {
+  constexpr int kNarrow = 12;  // Four nodes.
+  constexpr int kWide = 48;
+  constexpr double kManyZeros = 0.4;
+  constexpr double kFewZeros = 0.1;
+  if (columns <= kNarrow) return zeros < kManyZeros * size;
+  return columns <= kWide && zeros < kFewZeros * size;
+}
+
+template <typename Scalar>
+int Padded(int rows) {
+  constexpr int kUnit = kPanelRowUnit<Scalar>;
+  return (rows + kUnit - 1) / kUnit * kUnit;
 }
 
 }  // namespace
 
+// Groups columns while the first row below one is the next column: then all
+// rows of the former are rows of the latter, and merging only adds zeros.
+template <typename Scalar>
+void SupernodalSolve<Scalar>::FindSupernodes(const SparseMatrix& lower) {
+  const int* outer = lower.outerIndexPtr();
+  const int* inner = lower.innerIndexPtr();
+  const auto count = [outer](int column) {
+    return outer[column + 1] - outer[column];
+  };
+  constexpr int kWidest = 96;  // Panels beyond this leave the cache.
+  supernodes_.clear();
+  double zeros = 0.0;  // Of the last supernode.
+  for (int column = 0; column < lower.cols(); ++column) {
+    if (column > 0) {
+      Supernode& node = supernodes_.back();
+      const int before = column - 1;
+      const bool connected =
+          count(before) > 0 && inner[outer[before]] == column;
+      if (connected && node.columns < kWidest) {
+        // Rows of this column which the one before it lacks.
+        const double added = count(column) + 1 - count(before);
+        const double new_zeros = zeros + added * node.columns;
+        const double size =
+            (node.columns + 1.0) * (0.5 * node.columns + 1.0 + count(column));
+        if (added == 0.0 || PaysToMerge(node.columns + 1, new_zeros, size)) {
+          ++node.columns;
+          zeros = new_zeros;
+          continue;
+        }
+      }
+    }
+    Supernode& node = supernodes_.emplace_back();
+    node.first = column;
+    node.columns = 1;
+    zeros = 0.0;
+  }
+}
+
 template <typename Scalar>
 void SupernodalSolve<Scalar>::Analyze(const SparseMatrix& lower,
                                       const Permutation& order) {
-  const int size = static_cast<int>(lower.cols());
-  supernodes_.clear();
+  FindSupernodes(lower);
   rows_.clear();
   size_t panel_size = 0;
-  int most_rows = 0;
-  for (int column = 0; column < size; ++column) {
-    constexpr int kWidest = 96;  // Panels beyond this leave the cache.
-    if (column > 0 && supernodes_.back().columns < kWidest &&
-        Continues(lower, column)) {
-      ++supernodes_.back().columns;
-      continue;
-    }
-    Supernode& supernode = supernodes_.emplace_back();
-    supernode.first = column;
-    supernode.columns = 1;
-  }
-  for (Supernode& supernode : supernodes_) {
-    const int last = supernode.first + supernode.columns - 1;
+  int most = 0;
+  for (Supernode& node : supernodes_) {
+    const int last = node.first + node.columns - 1;
     const int begin = lower.outerIndexPtr()[last];
     const int end = lower.outerIndexPtr()[last + 1];
-    supernode.rows = end - begin;
-    supernode.row_start = rows_.size();
-    supernode.panel_start = panel_size;
+    node.rows = end - begin;
+    node.height = Padded<Scalar>(node.columns + node.rows);
+    node.row_start = rows_.size();
+    node.panel_start = panel_size;
     rows_.insert(rows_.end(), lower.innerIndexPtr() + begin,
                  lower.innerIndexPtr() + end);
-    panel_size += static_cast<size_t>(supernode.columns + supernode.rows) *
-                  static_cast<size_t>(supernode.columns);
-    most_rows = std::max(most_rows, supernode.rows);
+    panel_size +=
+        static_cast<size_t>(node.height) * static_cast<size_t>(node.columns);
+    most = std::max(most, node.height);
   }
   panels_.assign(panel_size, Scalar(0));
-  inverse_diagonal_.resize(size);
-  work_.resize(size);
-  gathered_.resize(most_rows);
+  place_.assign(static_cast<size_t>(lower.cols()), 0);
+  inverse_diagonal_.resize(lower.cols());
+  work_.resize(lower.cols());
+  gathered_.setZero(most);
   order_ = order.indices();
+}
+
+template <typename Scalar>
+void SupernodalSolve<Scalar>::UpdatePanel(const SparseMatrix& lower,
+                                          const Supernode& node) {
+  for (int c = 0; c < node.columns; ++c) {
+    place_[static_cast<size_t>(node.first + c)] = c;
+  }
+  for (int r = 0; r < node.rows; ++r) {
+    const int row = rows_[node.row_start + static_cast<size_t>(r)];
+    place_[static_cast<size_t>(row)] = node.columns + r;
+  }
+  full_panel_.setZero(node.height, node.columns);
+  for (int c = 0; c < node.columns; ++c) {
+    full_panel_(c, c) = 1.0;
+    for (SparseMatrix::InnerIterator it(lower, node.first + c); it; ++it) {
+      full_panel_(place_[static_cast<size_t>(it.row())], c) = it.value();
+    }
+  }
+  const MatrixXd inverse =
+      full_panel_.topRows(node.columns)
+          .template triangularView<Eigen::UnitLower>()
+          .solve(MatrixXd::Identity(node.columns, node.columns));
+  Eigen::Map<Eigen::Matrix<Scalar, Eigen::Dynamic, Eigen::Dynamic>> panel(
+      panels_.data() + node.panel_start, node.height, node.columns);
+  panel.topRows(node.columns) = inverse.template cast<Scalar>();
+  panel.middleRows(node.columns, node.rows) =
+      (full_panel_.middleRows(node.columns, node.rows) * inverse)
+          .template cast<Scalar>();
 }
 
 template <typename Scalar>
 void SupernodalSolve<Scalar>::Update(const SparseMatrix& lower,
                                      const VectorXd& diagonal) {
   inverse_diagonal_ = diagonal.cwiseInverse().template cast<Scalar>();
-  for (const Supernode& supernode : supernodes_) {
-    const int height = supernode.columns + supernode.rows;
-    for (int c = 0; c < supernode.columns; ++c) {
-      const int column = supernode.first + c;
-      // The column holds the rows below its diagonal, in this order.
-      const double* values = lower.valuePtr() + lower.outerIndexPtr()[column];
-      Scalar* panel = panels_.data() + supernode.panel_start +
-                      static_cast<ptrdiff_t>(c) * height;
-      for (int r = c + 1; r < height; ++r) {
-        panel[r] = static_cast<Scalar>(*values++);
-      }
-    }
-  }
+  for (const Supernode& node : supernodes_) UpdatePanel(lower, node);
 }
 
 template <typename Scalar>
 void SupernodalSolve<Scalar>::Solve(const VectorXd& b, VectorXd* x) {
-  using Panel =
-      Eigen::Map<const Eigen::Matrix<Scalar, Eigen::Dynamic, Eigen::Dynamic>>;
   const Eigen::Index size = b.size();
   // Scaled, so that small residuals stay in the range of Scalar.
-  const double scale = b.cwiseAbs().maxCoeff();
-  if (!(scale > 0.0)) {
+  const double largest = b.cwiseAbs().maxCoeff();
+  if (!(largest > 0.0)) {
     *x = b;
     return;
   }
+  const double scale = std::max(largest, std::numeric_limits<double>::min());
+  const double to_unit = 1.0 / scale;
   for (Eigen::Index i = 0; i < size; ++i) {
-    work_(order_(i)) = static_cast<Scalar>(b(i) / scale);
+    work_(order_(i)) = static_cast<Scalar>(b(i) * to_unit);
   }
+  Scalar* const gathered = gathered_.data();
   for (const Supernode& node : supernodes_) {
-    const Panel panel(panels_.data() + node.panel_start,
-                      node.columns + node.rows, node.columns);
-    auto head = work_.segment(node.first, node.columns);
-    panel.topRows(node.columns)
-        .template triangularView<Eigen::UnitLower>()
-        .solveInPlace(head);
-    if (node.rows == 0) continue;
-    auto update = gathered_.head(node.rows);
-    update.noalias() = panel.bottomRows(node.rows) * head;
+    Scalar* const head = work_.data() + node.first;
+    PanelTimes(panels_.data() + node.panel_start, node.height, node.columns,
+               head, gathered);
+    std::copy_n(gathered, node.columns, head);
     const int* rows = rows_.data() + node.row_start;
-    for (int r = 0; r < node.rows; ++r) work_(rows[r]) -= update(r);
+    const Scalar* update = gathered + node.columns;
+    for (int r = 0; r < node.rows; ++r) work_(rows[r]) -= update[r];
   }
   work_.array() *= inverse_diagonal_.array();
   for (auto it = supernodes_.rbegin(); it != supernodes_.rend(); ++it) {
     const Supernode& node = *it;
-    const Panel panel(panels_.data() + node.panel_start,
-                      node.columns + node.rows, node.columns);
-    auto head = work_.segment(node.first, node.columns);
+    Scalar* const head = work_.data() + node.first;
+    std::copy_n(head, node.columns, gathered);
     const int* rows = rows_.data() + node.row_start;
-    auto below = gathered_.head(node.rows);
-    for (int r = 0; r < node.rows; ++r) below(r) = work_(rows[r]);
-    head.noalias() -= panel.bottomRows(node.rows).transpose() * below;
-    panel.topRows(node.columns)
-        .template triangularView<Eigen::UnitLower>()
-        .transpose()
-        .solveInPlace(head);
+    Scalar* const below = gathered + node.columns;
+    for (int r = 0; r < node.rows; ++r) below[r] = -work_(rows[r]);
+    // What is left from other panels must not meet the padding's zeros.
+    std::fill(gathered + node.columns + node.rows, gathered + node.height,
+              Scalar(0));
+    TransposedPanelTimes(panels_.data() + node.panel_start, node.height,
+                         node.columns, gathered, head);
   }
   x->resize(size);
   for (Eigen::Index i = 0; i < size; ++i) {

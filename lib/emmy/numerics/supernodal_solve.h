@@ -1,10 +1,16 @@
 // Repeated solution with a sparse factor L D Lᵀ, by dense panels.
 //
-// Neighbouring columns of L with the same pattern (a supernode) are stored as
-// one dense panel, so that a solve streams through memory in long rows instead
-// of following an index for every number. Panels are kept in single precision
-// where asked: half the memory to stream, and enough for a correction that the
-// next residual corrects in turn; never for a result.
+// Neighbouring columns of L with nearly the same pattern (a supernode) are
+// stored as one dense panel, so that a solve streams through memory instead of
+// following an index for every number. With the columns' square block L₁₁ on
+// the diagonal and the rows L₂₁ below it the panel is
+//   P = [L₁₁⁻¹; L₂₁ L₁₁⁻¹]
+// and a solve with L or Lᵀ is one product a panel:
+//   [y₁; u] = P b₁, b₂ −= u      and      x₁ = Pᵀ [y₁; −x₂].
+//
+// Panels are kept in single precision where asked: half the memory to stream,
+// and enough for a correction that the next residual corrects in turn; never
+// for a result.
 //
 // The pattern is analysed once; Update takes the numbers of a new factor.
 
@@ -36,19 +42,28 @@ class SupernodalSolve {
   // x = A⁻¹ b to the precision of Scalar.
   void Solve(const VectorXd& b, VectorXd* x);
 
+  // Numbers stored in panels, zeros of merged columns and padding included.
+  size_t panel_size() const { return panels_.size(); }
+
  private:
   using Vector = Eigen::Matrix<Scalar, Eigen::Dynamic, 1>;
   struct Supernode {
     int first = 0;           // Column of L.
     int columns = 0;         // How many.
     int rows = 0;            // Below the square block on the diagonal.
+    int height = 0;          // columns + rows, padded.
     size_t row_start = 0;    // In rows_.
-    size_t panel_start = 0;  // In panels_: (columns + rows) × columns.
+    size_t panel_start = 0;  // In panels_: height × columns.
   };
+
+  void FindSupernodes(const SparseMatrix& lower);
+  void UpdatePanel(const SparseMatrix& lower, const Supernode& node);
 
   std::vector<Supernode> supernodes_;
   std::vector<int> rows_;
   std::vector<Scalar> panels_;
+  std::vector<int> place_;  // Of a row of L in the panel at hand.
+  MatrixXd full_panel_;     // In double precision, before rounding.
   Vector inverse_diagonal_, work_, gathered_;
   Eigen::VectorXi order_;
 };
