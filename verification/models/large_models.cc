@@ -198,8 +198,9 @@ Case TrussedBoxes(int n) {
       Vector3d(1.5, 1.0, -0.5), Vector3d(1.5, -1.0, -0.5)};
   for (int i = 0; i < n; ++i) {
     RigidBodyDescription box =
-        ChainBox(i, Vector3d((3.0 + kGap) * i, 0.0, 0.0));
-    box.angular_velocity = 0.1 * ChainOmega(i);
+        ChainBox(i, Vector3d((3.0 + kGap) * (i - 0.5 * (n - 1)), 0.0, 0.0));
+    // Spinning about the row, each with a wobble of its own.
+    box.angular_velocity = Vector3d(0.5, 0.0, 0.0) + 0.02 * ChainOmega(i);
     value.model.rigid_bodies.push_back(box);
     if (i == 0) continue;
     for (size_t k = 0; k < corners.size(); ++k) {

@@ -23,7 +23,8 @@ Case SlackCableNet(int n);
 // faces (spherical joints), each with an angular velocity of its own.
 Case BoxChain(int n);
 
-// n boxes in a row, 2 m apart, neighbours joined by four trusses.
+// n boxes in a row, 2 m apart, neighbours joined by four trusses, spinning
+// about the row.
 Case TrussedBoxes(int n);
 
 }  // namespace emmy::verification

@@ -1,0 +1,105 @@
+// Nets and chains: cost against size, and what kept factors are worth.
+
+#include <benchmark/benchmark.h>
+
+#include "verification/benchmarks/checked_run.h"
+#include "verification/models/large_models.h"
+
+namespace emmy::verification {
+namespace {
+
+constexpr double kKept = 1e-15;  // Every law, as in the group `structures`.
+
+IntegratorOptions Options(double time_step) {
+  IntegratorOptions options;
+  options.time_step = time_step;
+  return options;
+}
+
+// Arguments: nodes a side, time step in microseconds.
+void Net(benchmark::State& state) {
+  CheckedRun run(SpinningNet(static_cast<int>(state.range(0))).model,
+                 Options(1e-6 * static_cast<double>(state.range(1))),
+                 /*warm_up=*/10);
+  run.TimeSteps(state, kKept);
+}
+BENCHMARK(Net)
+    ->Name("net/kept_factor")
+    ->ArgNames({"side", "step_us"})
+    ->Args({30, 1000})
+    ->Args({60, 1000})
+    ->Args({60, 10000})
+    ->Args({120, 1000})
+    ->Unit(benchmark::kMillisecond)
+    ->MinTime(1.0);
+
+// Few steps: the factorisation alone takes minutes at this size on some
+// machines, and is not what is timed.
+BENCHMARK(Net)
+    ->Name("net/large")
+    ->ArgNames({"side", "step_us"})
+    ->Args({300, 1000})
+    ->Unit(benchmark::kMillisecond)
+    ->Iterations(5);
+
+// Newton's method with a fresh factorisation in every iteration.
+void FreshFactors(benchmark::State& state, SymmetricFactor::Method method) {
+  IntegratorOptions options =
+      Options(1e-6 * static_cast<double>(state.range(1)));
+  options.always_full_newton = true;
+  options.factor_method = method;
+  CheckedRun run(SpinningNet(static_cast<int>(state.range(0))).model, options,
+                 /*warm_up=*/2);
+  run.TimeSteps(state, kKept);
+}
+void FreshLdlt(benchmark::State& state) {
+  FreshFactors(state, SymmetricFactor::Method::kSimplicial);
+}
+void FreshCholmod(benchmark::State& state) {
+  FreshFactors(state, SymmetricFactor::Method::kSupernodal);
+}
+BENCHMARK(FreshLdlt)
+    ->Name("net/fresh_ldlt")
+    ->ArgNames({"side", "step_us"})
+    ->Args({60, 1000})
+    ->Args({60, 10000})
+    ->Unit(benchmark::kMillisecond)
+    ->Iterations(3);
+BENCHMARK(FreshCholmod)
+    ->Name("net/fresh_cholmod")
+    ->ArgNames({"side", "step_us"})
+    ->Args({60, 1000})
+    ->Args({60, 10000})
+    ->Unit(benchmark::kMillisecond)
+    ->Iterations(3);
+
+// Argument: boxes.
+void Chain(benchmark::State& state) {
+  CheckedRun run(BoxChain(static_cast<int>(state.range(0))).model,
+                 Options(1e-3), /*warm_up=*/10);
+  run.TimeSteps(state, kKept);
+}
+BENCHMARK(Chain)
+    ->Name("chain")
+    ->ArgName("boxes")
+    ->Arg(10)
+    ->Arg(100)
+    ->Arg(1000)
+    ->Arg(10000)
+    ->Unit(benchmark::kMicrosecond);
+
+void TrussedRow(benchmark::State& state) {
+  CheckedRun run(TrussedBoxes(static_cast<int>(state.range(0))).model,
+                 Options(1e-3), /*warm_up=*/10);
+  run.TimeSteps(state, kKept);
+}
+BENCHMARK(TrussedRow)
+    ->Name("trussed_boxes")
+    ->ArgName("boxes")
+    ->Arg(10)
+    ->Arg(100)
+    ->Arg(1000)
+    ->Unit(benchmark::kMicrosecond);
+
+}  // namespace
+}  // namespace emmy::verification
