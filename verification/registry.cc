@@ -14,8 +14,8 @@ const std::vector<Claim>& AllClaims() {
     auto* all = new std::vector<Claim>;
     for (const auto& group :
          {ConservationClaims, GrowthClaims, LargeStepClaims, PenaltyClaims,
-          OrderClaims, ExternalClaims, ExternalStructureClaims, StructureClaims,
-          FigureClaims}) {
+          OrderClaims, CompositionClaims, ExternalClaims,
+          ExternalStructureClaims, StructureClaims, FigureClaims}) {
       for (Claim& claim : group()) all->push_back(std::move(claim));
     }
     return all;

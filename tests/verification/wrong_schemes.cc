@@ -2,6 +2,9 @@
 
 #include <functional>
 #include <utility>
+#include <vector>
+
+#include "emmy/integrate/composition.h"
 
 namespace emmy::verification {
 namespace {
@@ -62,6 +65,34 @@ Scheme WrongClock(double error, bool ancf_only) {
 Scheme FirstOrderClock(double factor) {
   return WithOptions([factor](const Model&, IntegratorOptions* options) {
     options->time_step *= 1.0 + factor * options->time_step;
+  });
+}
+
+absl::StatusOr<StepFunction> UnpairedComposition(
+    const Model& model, const IntegratorOptions& options) {
+  const std::vector<double> parts = SubSteps(options.order, options.time_step);
+  std::vector<StepFunction> steps;
+  for (size_t i = 0; i < parts.size(); i += 2) {
+    IntegratorOptions single = options;
+    single.order = 2;
+    single.time_step = 2.0 * parts[i];
+    absl::StatusOr<StepFunction> step = EnergyMomentumScheme(model, single);
+    if (!step.ok()) return step.status();
+    steps.push_back(*std::move(step));
+  }
+  return StepFunction([steps](State& state) {
+    StepReport report;
+    for (const StepFunction& step : steps) {
+      report = step(state);
+      if (!report.ok()) break;
+    }
+    return report;
+  });
+}
+
+Scheme OtherOrder(int order) {
+  return WithOptions([order](const Model&, IntegratorOptions* options) {
+    options->order = order;
   });
 }
 

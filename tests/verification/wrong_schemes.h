@@ -23,6 +23,13 @@ Scheme WrongClock(double error, bool ancf_only = false);
 // Each step is longer by `factor` Δt of itself: first order in Δt.
 Scheme FirstOrderClock(double factor);
 
+// Orders 4 and 6 composed of single steps instead of pairs (COMP-1).
+absl::StatusOr<StepFunction> UnpairedComposition(
+    const Model& model, const IntegratorOptions& options);
+
+// Advances with the order `order`, whatever was asked.
+Scheme OtherOrder(int order);
+
 // The first strain is off by `kick` after the first step.
 Scheme StrainKick(double kick);
 

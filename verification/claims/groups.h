@@ -14,6 +14,7 @@ std::vector<Claim> GrowthClaims();        // growth.cc
 std::vector<Claim> LargeStepClaims();     // large_steps.cc
 std::vector<Claim> PenaltyClaims();       // penalty.cc
 std::vector<Claim> OrderClaims();         // order.cc
+std::vector<Claim> CompositionClaims();   // composition.cc
 std::vector<Claim> ExternalClaims();      // external.cc
 // external_structures.cc
 std::vector<Claim> ExternalStructureClaims();

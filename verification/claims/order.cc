@@ -4,11 +4,9 @@
 #include <cmath>
 
 #include "absl/strings/str_format.h"
-#include "emmy/model/model_builder.h"
-#include "emmy/numerics/rotation.h"
 #include "verification/claims/groups.h"
-#include "verification/exact/free_rigid_body.h"
 #include "verification/runs/fit.h"
+#include "verification/runs/motion_error.h"
 #include "verification/runs/paper_box.h"
 #include "verification/runs/run.h"
 
@@ -25,53 +23,8 @@ const std::vector<double>& TimeSteps() {
   return *steps;
 }
 
-// The paper's box as a rigid body, in closed form.
-absl::StatusOr<exact::FreeRigidBody<double>> ExactMotion() {
-  const absl::StatusOr<BuiltModel> built = BuildModel(PaperBoxConventional());
-  if (!built.ok()) return built.status();
-  exact::FreeRigidBodyStart<double> start;
-  start.inertia = built->model.bodies()[0].inertia().tensor;
-  start.angular_velocity =
-      PaperBoxConventional().rigid_bodies[0].angular_velocity;
-  return exact::FreeRigidBody<double>::Create(start);
-}
-
-// Largest errors over the times that all steps share.
-struct MotionError {
-  double angular_velocity = 0.0;  // Inertial, largest component [rad/s].
-  double attitude = 0.0;          // Angle to the exact attitude [rad].
-};
-
-// The angle between two attitudes, without cancellation near zero.
-double AngleBetween(const Vector4d& a, const Vector4d& b) {
-  const Vector4d nearer = a.dot(b) < 0.0 ? Vector4d(-b) : b;
-  return 4.0 * std::asin(std::min(1.0, 0.5 * (a - nearer).norm()));
-}
-
-absl::StatusOr<MotionError> CompareWithExact(
-    const ModelDescription& description, double time_step,
-    const Scheme& scheme) {
-  const absl::StatusOr<exact::FreeRigidBody<double>> exact = ExactMotion();
-  if (!exact.ok()) return exact.status();
-  absl::StatusOr<Run> run = Run::Start(description, time_step, scheme);
-  if (!run.ok()) return run.status();
-  MotionError error;
-  const int64_t between = std::llround(TimeSteps().front() / time_step);
-  const int64_t readings = std::llround(kDuration / TimeSteps().front());
-  for (int64_t i = 1; i <= readings; ++i) {
-    const absl::Status status = run->Advance(between);
-    if (!status.ok()) return status;
-    const BodyMotion motion = run->Motion();
-    const double time = static_cast<double>(i) * TimeSteps().front();
-    const exact::FreeRigidBodyState<double> truth = exact->At(time);
-    error.angular_velocity = std::max(
-        error.angular_velocity,
-        (motion.omega_locked - truth.angular_velocity).cwiseAbs().maxCoeff());
-    error.attitude = std::max(
-        error.attitude,
-        AngleBetween(motion.quaternion, MatrixToQuaternion(truth.attitude)));
-  }
-  return error;
+ReadingTimes Times() {
+  return {.interval = TimeSteps().front(), .duration = kDuration};
 }
 
 absl::StatusOr<ClaimResult> Orders(const ClaimSetting& setting,
@@ -80,8 +33,8 @@ absl::StatusOr<ClaimResult> Orders(const ClaimSetting& setting,
   std::vector<double> omega;
   std::vector<double> attitude;
   for (const double time_step : TimeSteps()) {
-    const absl::StatusOr<MotionError> error =
-        CompareWithExact(description, time_step, setting.scheme);
+    const absl::StatusOr<MotionError> error = CompareWithExact(
+        description, {.time_step = time_step}, Times(), setting.scheme);
     if (!error.ok()) return error.status();
     omega.push_back(error->angular_velocity);
     attitude.push_back(error->attitude);
@@ -146,8 +99,9 @@ absl::StatusOr<ClaimResult> Floor(const ClaimSetting& setting) {
                      (a.omega_locked - b.omega_locked).cwiseAbs().maxCoeff());
     attitude = std::max(attitude, AngleBetween(a.quaternion, b.quaternion));
   }
-  const absl::StatusOr<MotionError> error = CompareWithExact(
-      PaperBoxAncf(kPenalty, Start::kRelaxed), time_step, setting.scheme);
+  const absl::StatusOr<MotionError> error =
+      CompareWithExact(PaperBoxAncf(kPenalty, Start::kRelaxed),
+                       {.time_step = time_step}, Times(), setting.scheme);
   if (!error.ok()) return error.status();
   constexpr double kWhole = 10.0 / 9.0;
   return ClaimResult{

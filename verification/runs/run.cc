@@ -9,11 +9,15 @@ namespace emmy::verification {
 
 absl::StatusOr<Run> Run::Start(const ModelDescription& description,
                                double time_step, const Scheme& scheme) {
+  return Start(description, IntegratorOptions{.time_step = time_step}, scheme);
+}
+
+absl::StatusOr<Run> Run::Start(const ModelDescription& description,
+                               const IntegratorOptions& options,
+                               const Scheme& scheme) {
   absl::StatusOr<BuiltModel> built = BuildModel(description);
   if (!built.ok()) return built.status();
   auto model = std::make_unique<const Model>(std::move(built->model));
-  IntegratorOptions options;
-  options.time_step = time_step;
   absl::StatusOr<StepFunction> step = scheme(*model, options);
   if (!step.ok()) return step.status();
   return Run(std::move(model), std::move(built->state), *std::move(step));
@@ -32,7 +36,15 @@ absl::Status Run::Advance(int64_t num_steps,
 absl::StatusOr<ConservationErrors> MeasureConservation(
     const ModelDescription& description, double time_step, int64_t num_steps,
     const Scheme& scheme) {
-  absl::StatusOr<Run> run = Run::Start(description, time_step, scheme);
+  return MeasureConservation(description,
+                             IntegratorOptions{.time_step = time_step},
+                             num_steps, scheme);
+}
+
+absl::StatusOr<ConservationErrors> MeasureConservation(
+    const ModelDescription& description, const IntegratorOptions& options,
+    int64_t num_steps, const Scheme& scheme) {
+  absl::StatusOr<Run> run = Run::Start(description, options, scheme);
   if (!run.ok()) return run.status();
   InvariantMonitor monitor(run->model(), run->state());
   const absl::Status status = run->Advance(

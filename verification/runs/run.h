@@ -18,6 +18,10 @@ namespace emmy::verification {
 class Run {
  public:
   static absl::StatusOr<Run> Start(const ModelDescription& description,
+                                   const IntegratorOptions& options,
+                                   const Scheme& scheme);
+  // With all but the time step at their defaults.
+  static absl::StatusOr<Run> Start(const ModelDescription& description,
                                    double time_step, const Scheme& scheme);
 
   const Model& model() const { return *model_; }
@@ -52,6 +56,9 @@ struct ConservationErrors {
   double angular_momentum = 0.0;
 };
 
+absl::StatusOr<ConservationErrors> MeasureConservation(
+    const ModelDescription& description, const IntegratorOptions& options,
+    int64_t num_steps, const Scheme& scheme);
 absl::StatusOr<ConservationErrors> MeasureConservation(
     const ModelDescription& description, double time_step, int64_t num_steps,
     const Scheme& scheme);

@@ -1,0 +1,85 @@
+// The energy-momentum step of a whole model, part by part.
+//
+//   Δq/Δt = w̄ = ½ (w₀ + w₁),  M Δw/Δt + f̄(q₀, q₁) = F̄        (EM-1, EM-2)
+// Parts that nothing joins are solved apart: free bodies of either formulation,
+// then structures. Second order and symmetric; see energy_momentum.h for what
+// is made of it.
+
+#ifndef EMMY_INTEGRATE_MODEL_STEP_H_
+#define EMMY_INTEGRATE_MODEL_STEP_H_
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "absl/status/statusor.h"
+#include "emmy/integrate/ancf_body_step.h"
+#include "emmy/integrate/conventional_body_step.h"
+#include "emmy/integrate/conventional_structure_step.h"
+#include "emmy/integrate/coupled_step.h"
+#include "emmy/integrate/structure.h"
+#include "emmy/model/model.h"
+#include "emmy/model/state.h"
+#include "emmy/numerics/newton.h"
+#include "emmy/numerics/symmetric_factor.h"
+
+namespace emmy {
+
+struct ModelStepOptions {
+  NewtonOptions newton;
+  bool always_full_newton = false;
+  SymmetricFactor::Method factor_method = SymmetricFactor::Method::kAutomatic;
+};
+
+class ModelStep {
+ public:
+  // `model` and its `structures` must outlive the step. Fails with
+  // kUnimplemented if conventional and ANCF bodies are joined.
+  static absl::StatusOr<ModelStep> Create(
+      const Model& model, const std::vector<Structure>& structures,
+      double time_step, const ModelStepOptions& options);
+
+  double time_step() const { return time_step_; }
+
+  // Solves for the next state; `state` is not changed. If it returns false,
+  // `report` says why; its termination is not touched otherwise. No heap
+  // allocation if the step converges.
+  bool Solve(const State& state, StepReport* report);
+
+  // Advances `state` by the last solution, except its time and step number.
+  void Commit(State& state) const;
+
+  // Factorisations of structures so far.
+  int num_factorizations() const;
+
+ private:
+  // A rigid body to which nothing is attached.
+  template <typename StepType, typename IncrementType>
+  struct FreePart {
+    const ModelBody* body;
+    StepType step;
+    IncrementType increment;
+  };
+  using FreeAncf = FreePart<AncfBodyStep, AncfBodyIncrement>;
+  using FreeConventional =
+      FreePart<ConventionalBodyStep, ConventionalBodyIncrement>;
+
+  ModelStep(const Model& model, const std::vector<Structure>& structures,
+            double time_step, const ModelStepOptions& options,
+            std::optional<ConventionalStructureStep> conventional_structure);
+
+  bool Accept(const BodyStepResult& result, const State& state,
+              const std::string& part, StepReport* report) const;
+  void CommitCentre(const ModelBody& body, State& state) const;
+
+  const Model* model_;
+  double time_step_;
+  std::vector<FreeAncf> free_ancf_;
+  std::vector<FreeConventional> free_conventional_;
+  std::vector<CoupledStep> coupled_;
+  std::optional<ConventionalStructureStep> conventional_structure_;
+};
+
+}  // namespace emmy
+
+#endif  // EMMY_INTEGRATE_MODEL_STEP_H_
