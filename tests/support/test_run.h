@@ -90,8 +90,10 @@ inline bool SameState(const State& a, const State& b) {
   return SameMotion(a, b) && a.step == b.step && a.time.value == b.time.value &&
          a.time.compensation == b.time.compensation &&
          a.load_work.value == b.load_work.value &&
-         a.acceleration_guess == b.acceleration_guess &&
-         a.multiplier_guess == b.multiplier_guess;
+         a.acceleration.next == b.acceleration.next &&
+         a.acceleration.differences == b.acceleration.differences &&
+         a.multiplier.next == b.multiplier.next &&
+         a.multiplier.differences == b.multiplier.differences;
 }
 
 }  // namespace emmy

@@ -134,7 +134,8 @@ BodyStepResult AncfBodyStep::Iterate(const AncfBodyStart& start,
                                      bool full_newton,
                                      Matrix3d* rate_increment) const {
   BodyStepResult result;
-  StagnationMonitor strain_monitor;
+  // Strain is defined to its floor only, and what a step leaves does no work.
+  StagnationMonitor strain_monitor(/*negligible=*/0x1p-6);
   StagnationMonitor rotation_monitor;
   double previous = std::numeric_limits<double>::infinity();
   for (int i = 1; i <= options_.max_iterations; ++i) {
@@ -145,10 +146,17 @@ BodyStepResult AncfBodyStep::Iterate(const AncfBodyStart& start,
       correction = e.residual * inverse_moment_;
     } else if (!full_newton) {
       // Residual along ēⱼ, correction along the dual vectors of e₁: then the
-      // penalty terms of (EM-6) are those of the exact Jacobian.
+      // penalty terms of (EM-6) are those of the exact Jacobian, and the mass
+      // is seen through both frames, turned by half a step: once more for what
+      // that leaves.
       const Matrix3d end = e.mean_gradients + 0.5 * e.increment;
-      correction = end.inverse().transpose() *
-                   corotated_.Solve(e.mean_gradients.inverse() * e.residual);
+      const Matrix3d to_mean = e.mean_gradients.inverse();
+      const Matrix3d from_end = end.inverse().transpose();
+      const Matrix3d turn = to_mean * from_end - Matrix3d::Identity();
+      const Matrix3d along = to_mean * e.residual;
+      const Matrix3d first = corotated_.Solve(along);
+      correction = from_end * corotated_.Solve(
+                                  along - turn * first * body_.second_moment());
     } else if (!FullNewtonCorrection(e, &correction)) {
       result.termination = Termination::kSingularTangent;
       return result;

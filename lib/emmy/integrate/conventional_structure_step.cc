@@ -192,7 +192,7 @@ void ConventionalStructureStep::Load(const State& state) {
     body.w0 = state.velocity.value.segment<3>(w + 3);
     body.w0_compensation = state.velocity.compensation.segment<3>(w + 3);
     unknown_.segment<6>(BodyRow(static_cast<int>(i))) =
-        time_step_ * state.acceleration_guess.segment<6>(w);
+        time_step_ * state.acceleration.next.segment<6>(w);
   }
   for (size_t i = 0; i < nodes_.size(); ++i) {
     Node& node = nodes_[i];
@@ -202,7 +202,7 @@ void ConventionalStructureStep::Load(const State& state) {
     node.w0 = state.velocity.value.segment<3>(w);
     node.w0_compensation = state.velocity.compensation.segment<3>(w);
     unknown_.segment<3>(NodeRow(static_cast<int>(i))) =
-        time_step_ * state.acceleration_guess.segment<3>(w);
+        time_step_ * state.acceleration.next.segment<3>(w);
   }
   for (Line& line : lines_) {
     line.strain = state.strain.value(line.line->strain_offset);
@@ -533,14 +533,14 @@ void ConventionalStructureStep::Commit(State& state) const {
                        CayleyQuaternionIncrement(body.quaternion,
                                                  time_step_ * body.mean_omega));
     state.velocity.Add(w, change);
-    state.acceleration_guess.segment<6>(w) = change / time_step_;
+    state.acceleration.next.segment<6>(w) = change / time_step_;
   }
   for (size_t i = 0; i < nodes_.size(); ++i) {
     const auto [q, w, moment] = *nodes_[i].vector;
     const auto change = unknown_.segment<3>(NodeRow(static_cast<int>(i)));
     state.position.Add(q, nodes_[i].increment);
     state.velocity.Add(w, change);
-    state.acceleration_guess.segment<3>(w) = change / time_step_;
+    state.acceleration.next.segment<3>(w) = change / time_step_;
   }
   for (const Line& line : lines_) {
     const Index s = line.line->strain_offset;

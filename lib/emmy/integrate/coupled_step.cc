@@ -47,6 +47,13 @@ CoupledStep::CoupledStep(const Structure& structure, double time_step,
   }
 }
 
+// Of a constraint's force in the state.
+Eigen::Index CoupledStep::MultiplierOffset(Eigen::Index constraint) const {
+  return 3 *
+         static_cast<Eigen::Index>(
+             structure_->constraints[static_cast<size_t>(constraint)].index);
+}
+
 void CoupledStep::Load(const State& state) {
   for (Eigen::Index v = 0; v < structure_->num_vectors(); ++v) {
     const auto [q, w, moment] = structure_->vectors[static_cast<size_t>(v)];
@@ -54,7 +61,7 @@ void CoupledStep::Load(const State& state) {
     q0_compensation_.col(v) = state.position.compensation.segment<3>(q);
     w0_.col(v) = state.velocity.value.segment<3>(w);
     w0_compensation_.col(v) = state.velocity.compensation.segment<3>(w);
-    dw_.col(v) = time_step_ * state.acceleration_guess.segment<3>(w);
+    dw_.col(v) = time_step_ * state.acceleration.next.segment<3>(w);
   }
   for (Eigen::Index s = 0; s < strain0_.size(); ++s) {
     const Eigen::Index offset =
@@ -63,9 +70,8 @@ void CoupledStep::Load(const State& state) {
     strain0_compensation_(s) = state.strain.compensation(offset);
   }
   for (Eigen::Index c = 0; c < structure_->num_constraints(); ++c) {
-    const size_t index = structure_->constraints[static_cast<size_t>(c)].index;
-    impulse_.col(c) = time_step_ * state.multiplier_guess.segment<3>(
-                                       3 * static_cast<Eigen::Index>(index));
+    impulse_.col(c) =
+        time_step_ * state.multiplier.next.segment<3>(MultiplierOffset(c));
   }
   lines_.Load(q0_, q0_compensation_);
 }
@@ -405,11 +411,16 @@ double CoupledStep::LoadWork() const {
 
 void CoupledStep::Commit(State& state) const {
   state.load_work.Add(LoadWork());
+  Extrapolation::Errors errors{};
   for (Eigen::Index v = 0; v < structure_->num_vectors(); ++v) {
     const auto [q, w, moment] = structure_->vectors[static_cast<size_t>(v)];
     state.position.Add(q, dq_.col(v));
     state.velocity.Add(w, dw_.col(v));
-    state.acceleration_guess.segment<3>(w) = dw_.col(v) / time_step_;
+    state.acceleration.Add(w, dw_.col(v) / time_step_, &errors);
+  }
+  const int order = Extrapolation::BestOrder(errors);
+  for (const VectorCoordinate& vector : structure_->vectors) {
+    state.acceleration.Predict(vector.velocity_offset, 3, order);
   }
   for (Eigen::Index s = 0; s < strain_increment_.size(); ++s) {
     const Eigen::Index offset =
@@ -417,10 +428,14 @@ void CoupledStep::Commit(State& state) const {
     AddCompensated(strain_increment_(s), state.strain.value(offset),
                    state.strain.compensation(offset));
   }
+  Extrapolation::Errors multiplier_errors{};
   for (Eigen::Index c = 0; c < structure_->num_constraints(); ++c) {
-    const size_t index = structure_->constraints[static_cast<size_t>(c)].index;
-    state.multiplier_guess.segment<3>(3 * static_cast<Eigen::Index>(index)) =
-        impulse_.col(c) / time_step_;
+    state.multiplier.Add(MultiplierOffset(c), impulse_.col(c) / time_step_,
+                         &multiplier_errors);
+  }
+  const int multiplier_order = Extrapolation::BestOrder(multiplier_errors);
+  for (Eigen::Index c = 0; c < structure_->num_constraints(); ++c) {
+    state.multiplier.Predict(MultiplierOffset(c), 3, multiplier_order);
   }
 }
 

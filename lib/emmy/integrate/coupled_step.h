@@ -61,6 +61,7 @@ class CoupledStep {
     double rate, force, moment, work;
   };
 
+  Eigen::Index MultiplierOffset(Eigen::Index constraint) const;
   void Load(const State& state);
   void Evaluate();
   void EvaluateBodies();

@@ -62,8 +62,8 @@ absl::Status EnergyMomentumIntegrator::MakeSteps(const Model& model) {
     start_.velocity.SetZero(model.num_velocities());
     start_.strain.SetZero(model.num_strains());
     start_.end_velocity.SetZero(model.num_end_velocities());
-    start_.acceleration_guess.setZero(model.num_velocities());
-    start_.multiplier_guess.setZero(
+    start_.acceleration.SetZero(model.num_velocities());
+    start_.multiplier.SetZero(
         3 * static_cast<Eigen::Index>(model.constraints().size()));
   }
   return absl::OkStatus();

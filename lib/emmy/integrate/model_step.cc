@@ -39,6 +39,16 @@ ConventionalBodyStart ConventionalStart(const ModelBody& body,
               state.velocity.compensation.segment<3>(w)};
 }
 
+// The start of the next iteration from the acceleration of this step.
+template <typename Derived>
+void Predict(Eigen::Index offset, const Eigen::MatrixBase<Derived>& latest,
+             State& state) {
+  Extrapolation::Errors errors{};
+  state.acceleration.Add(offset, latest, &errors);
+  state.acceleration.Predict(offset, latest.size(),
+                             Extrapolation::BestOrder(errors));
+}
+
 const char* Reason(Termination termination) {
   switch (termination) {
     case Termination::kSingularTangent:
@@ -130,7 +140,7 @@ bool ModelStep::Solve(const State& state, StepReport* report) {
   for (FreeAncf& part : free_ancf_) {
     const BodyStepResult result = part.step.Solve(
         AncfStart(*part.body, state),
-        dt * Columns(state.acceleration_guess, part.body->velocity_offset + 3),
+        dt * Columns(state.acceleration.next, part.body->velocity_offset + 3),
         &part.increment);
     const bool ok = result.termination == Termination::kConverged;
     if (!Accept(result, state,
@@ -142,8 +152,7 @@ bool ModelStep::Solve(const State& state, StepReport* report) {
   for (FreeConventional& part : free_conventional_) {
     const BodyStepResult result = part.step.Solve(
         ConventionalStart(*part.body, state),
-        dt *
-            state.acceleration_guess.segment<3>(part.body->velocity_offset + 3),
+        dt * state.acceleration.next.segment<3>(part.body->velocity_offset + 3),
         &part.increment);
     const bool ok = result.termination == Termination::kConverged;
     if (!Accept(result, state,
@@ -199,7 +208,7 @@ void ModelStep::Commit(State& state) const {
     state.position.Add(body.position_offset + 3, gradients);
     state.velocity.Add(body.velocity_offset + 3, rates);
     state.strain.Add(body.strain_offset, part.increment.strain);
-    state.acceleration_guess.segment<9>(body.velocity_offset + 3) = rates / dt;
+    Predict(body.velocity_offset + 3, rates / dt, state);
   }
   for (const FreeConventional& part : free_conventional_) {
     const ModelBody& body = *part.body;
@@ -207,8 +216,8 @@ void ModelStep::Commit(State& state) const {
     state.position.Add(body.position_offset + 3, part.increment.quaternion);
     state.velocity.Add(body.velocity_offset + 3,
                        part.increment.angular_velocity);
-    state.acceleration_guess.segment<3>(body.velocity_offset + 3) =
-        part.increment.angular_velocity / dt;
+    Predict(body.velocity_offset + 3, part.increment.angular_velocity / dt,
+            state);
   }
   for (const CoupledStep& part : coupled_) part.Commit(state);
   if (conventional_structure_.has_value()) {

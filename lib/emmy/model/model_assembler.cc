@@ -69,8 +69,8 @@ absl::StatusOr<BuiltModel> ModelAssembler::Assemble() && {
     for (const auto& [column, mass] : row) entries.push_back({column, mass});
   }
   state_.end_velocity.compensation.setZero(model_.num_end_velocities_);
-  state_.acceleration_guess.setZero(model_.num_velocities_);
-  state_.multiplier_guess.setZero(
+  state_.acceleration.SetZero(model_.num_velocities_);
+  state_.multiplier.SetZero(
       3 * static_cast<Eigen::Index>(model_.constraints_.size()));
   return BuiltModel{std::move(model_), std::move(state_)};
 }

@@ -7,6 +7,7 @@
 
 #include "emmy/base/compensated_sum.h"
 #include "emmy/base/types.h"
+#include "emmy/numerics/extrapolation.h"
 
 namespace emmy {
 
@@ -25,11 +26,11 @@ struct State {
   CompensatedVector end_velocity;
   CompensatedDouble load_work;  // Done by the loads since the start [J].
 
-  // Velocity increment per second and joint forces [N] of the last step: only
+  // Velocity increments per second and joint forces [N] of the last steps: only
   // the start values of the next iteration, kept here so that a resumed run
   // repeats every bit.
-  VectorXd acceleration_guess;
-  VectorXd multiplier_guess;
+  Extrapolation acceleration;
+  Extrapolation multiplier;
 };
 
 }  // namespace emmy

@@ -44,22 +44,37 @@ inline constexpr int kStagnationPatience = 20;
 // operation count and the scale of the problem. A correction far above it
 // never counts as stagnation, however it compares with the one before: the
 // first corrections of a stiff, large step may grow.
+//
+// Nor is an iteration done that could only confirm it: if the sequence shrinks
+// so fast that its next member would be `negligible` against the floor, that
+// member is lost in rounding. What it would have removed has the same sign in
+// every step, and adds up like the number of steps where rounding adds up like
+// its root: 2⁻¹⁰ leaves it below rounding for a million steps.
 class StagnationMonitor {
  public:
+  explicit StagnationMonitor(double negligible = 0x1p-10)
+      : negligible_(negligible) {}
+
   // True once the sequence has stopped shrinking near `floor`, and from then
   // on, so that several sequences may stagnate at different iterations.
   bool Update(double correction, double floor) {
     constexpr double kNear = 1e3;   // Where "stops shrinking" may be judged.
     constexpr double kRatio = 0.5;  // Less than one bit gained.
-    const bool shrinks = correction < kRatio * previous_;
+    const double ratio = correction / previous_;
+    const bool stopped = correction <= kNear * floor && !(ratio < kRatio);
+    const bool vanishes =
+        ratio < kRatio && correction * ratio <= negligible_ * floor;
     previous_ = correction;
-    stagnant_ = stagnant_ || correction == 0.0 ||
-                (correction <= kNear * floor && !shrinks);
+    stagnant_ =
+        stagnant_ || correction == 0.0 || stopped || (vanishes && has_ratio_);
+    has_ratio_ = true;
     return stagnant_;
   }
 
  private:
+  double negligible_;
   bool stagnant_ = false;
+  bool has_ratio_ = false;  // Two members have been seen.
   double previous_ = std::numeric_limits<double>::infinity();
 };
 
