@@ -55,7 +55,7 @@ void CheckedRun::TimeSteps(benchmark::State& state, double bound) {
     state.SkipWithError(error_.c_str());
   }
   const auto per_step = benchmark::Counter::kAvgIterations;
-  state.counters["iterations"] =
+  state.counters["newton_iterations"] =
       benchmark::Counter(static_cast<double>(iterations), per_step);
   state.counters["factorizations"] = benchmark::Counter(
       static_cast<double>(integrator_->num_factorizations() - factorizations),

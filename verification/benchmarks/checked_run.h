@@ -24,8 +24,8 @@ class CheckedRun {
   CheckedRun(const ModelDescription& description,
              const IntegratorOptions& options, int warm_up = 100);
 
-  // Times steps, one an iteration, and fills the counters: `iterations` of
-  // Newton's method a step, `energy_error`, `angular_momentum_error`,
+  // Times steps, one an iteration, and fills the counters: `newton_iterations`,
+  // `energy_error`, `angular_momentum_error`,
   // `factorizations` per step. The laws are measured between the start and the
   // end of what was timed; if they are not kept to `bound`, or a step fails,
   // the benchmark ends with an error instead of a time.

@@ -1,0 +1,170 @@
+#include "verification/timing/timing_report.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "absl/strings/str_cat.h"
+#include "absl/strings/str_format.h"
+#include "emmy/base/build_info.h"
+#include "verification/runs/fit.h"
+
+namespace emmy::verification {
+namespace {
+
+constexpr char kYardstick[] = "one_body/runge_kutta";
+
+std::string TimeText(double nanoseconds) {
+  if (nanoseconds < 1e3) return absl::StrFormat("%.0f ns", nanoseconds);
+  if (nanoseconds < 1e6) return absl::StrFormat("%.3g us", 1e-3 * nanoseconds);
+  return absl::StrFormat("%.3g ms", 1e-6 * nanoseconds);
+}
+
+// "–" if the benchmark has no such counter.
+std::string CounterText(const Timing& timing, const std::string& name,
+                        bool is_error) {
+  const auto counter = timing.counters.find(name);
+  if (counter == timing.counters.end()) return "–";
+  return is_error ? absl::StrFormat("%.1e", counter->second)
+                  : absl::StrFormat("%.3g", counter->second);
+}
+
+std::string RatioRows(const TimingRun& run) {
+  std::string text = "| what | ratio | target | |\n| --- | --- | --- | --- |\n";
+  for (const Ratio& ratio : Ratios()) {
+    const Timing* numerator = run.Find(ratio.numerator);
+    const Timing* denominator = run.Find(ratio.denominator);
+    const char* const sign = ratio.at_least ? ">=" : "<=";
+    if (numerator == nullptr || denominator == nullptr) {
+      absl::StrAppendFormat(&text, "| %s | not measured | %s %g | |\n",
+                            ratio.sentence, sign, ratio.target);
+      continue;
+    }
+    const double value = numerator->median / denominator->median;
+    const bool met =
+        ratio.at_least ? value >= ratio.target : value <= ratio.target;
+    absl::StrAppendFormat(&text, "| %s | %.3g | %s %g | %s |\n", ratio.sentence,
+                          value, sign, ratio.target,
+                          met ? "met" : "**missed**");
+  }
+  return text;
+}
+
+std::string GrowthRows(const TimingRun& run) {
+  std::string text =
+      "| what | exponent | target | |\n| --- | --- | --- | --- |\n";
+  for (const Growth& growth : Growths()) {
+    std::vector<double> sizes;
+    std::vector<double> times;
+    for (const auto& [size, name] : growth.sizes) {
+      const Timing* timing = run.Find(name);
+      if (timing == nullptr) continue;
+      sizes.push_back(size);
+      times.push_back(timing->median);
+    }
+    const double exponent = FitPower(sizes, times);
+    absl::StrAppendFormat(&text, "| %s | %.2f | <= %g | %s |\n",
+                          growth.sentence, exponent, growth.target,
+                          exponent <= growth.target ? "met" : "**missed**");
+  }
+  return text;
+}
+
+std::string TimeRows(const TimingRun& run) {
+  std::string text =
+      "| benchmark | median | spread | iterations | energy error | angular "
+      "momentum error |\n| --- | --- | --- | --- | --- | --- |\n";
+  for (const Timing& timing : run.timings) {
+    if (!timing.error.empty()) {
+      absl::StrAppendFormat(&text, "| `%s` | failed: %s | | | | |\n",
+                            timing.name, timing.error);
+      continue;
+    }
+    absl::StrAppendFormat(&text, "| `%s` | %s | %.0f %% | %s | %s | %s |\n",
+                          timing.name, TimeText(timing.median),
+                          100.0 * timing.spread,
+                          CounterText(timing, "newton_iterations", false),
+                          CounterText(timing, "energy_error", true),
+                          CounterText(timing, "angular_momentum_error", true));
+  }
+  return text;
+}
+
+}  // namespace
+
+const std::vector<Ratio>& Ratios() {
+  static const std::vector<Ratio>* const ratios = new std::vector<Ratio>{
+      {"one ANCF body, relaxed start, over Runge-Kutta",
+       "one_body/ancf_relaxed", kYardstick, 3.0, false},
+      {"one ANCF body, undeformed start, over Runge-Kutta",
+       "one_body/ancf_undeformed", kYardstick, 5.5, false},
+      {"one conventional body over Runge-Kutta", "one_body/conventional",
+       kYardstick, 1.3, false},
+      {"box and truss, ANCF, over Runge-Kutta", "box_and_truss/ancf",
+       kYardstick, 25.0, false},
+      {"box and truss: conventional over ANCF", "box_and_truss/conventional",
+       "box_and_truss/ancf", 1.0, true},
+      {"net 60 x 60, 1 ms: fresh LDLT factors over a kept one",
+       "net/fresh_ldlt/side:60/step_us:1000",
+       "net/kept_factor/side:60/step_us:1000", 20.0, true},
+      {"net 60 x 60, 1 ms: fresh CHOLMOD factors over a kept one",
+       "net/fresh_cholmod/side:60/step_us:1000",
+       "net/kept_factor/side:60/step_us:1000", 50.0, true},
+      {"net 60 x 60, 10 ms: fresh CHOLMOD factors over a kept one",
+       "net/fresh_cholmod/side:60/step_us:10000",
+       "net/kept_factor/side:60/step_us:10000", 25.0, true},
+  };
+  return *ratios;
+}
+
+const std::vector<Growth>& Growths() {
+  static const std::vector<Growth>* const growths = new std::vector<Growth>{
+      {"net, 30 to 300 nodes a side, by the number of nodes",
+       {{900.0, "net/kept_factor/side:30/step_us:1000"},
+        {3600.0, "net/kept_factor/side:60/step_us:1000"},
+        {14400.0, "net/kept_factor/side:120/step_us:1000"},
+        {90000.0, "net/large/side:300/step_us:1000"}},
+       1.3},
+      {"chain of joined boxes, 100 to 10,000, by boxes",
+       {{100.0, "chain/boxes:100"},
+        {1000.0, "chain/boxes:1000"},
+        {10000.0, "chain/boxes:10000"}},
+       1.1},
+      {"row of boxes joined by trusses, 10 to 1000, by boxes",
+       {{10.0, "trussed_boxes/boxes:10"},
+        {100.0, "trussed_boxes/boxes:100"},
+        {1000.0, "trussed_boxes/boxes:1000"}},
+       1.1},
+  };
+  return *growths;
+}
+
+std::string TimingReport(const TimingRun& run) {
+  const BuildInfo build = GetBuildInfo();
+  std::string text = absl::StrFormat(
+      "Measured %s on %s; emmy %s, %s, %s. Medians of the processor time of "
+      "the repetitions; the spread is the largest less the smallest over the "
+      "median. A run whose laws are not kept has no time.\n\n",
+      run.date, run.processor, build.version, build.compiler, build.flags);
+  absl::StrAppend(&text, "### Ratios\n\n", RatioRows(run), "\n### Growth\n\n",
+                  GrowthRows(run), "\n### Times\n\n", TimeRows(run));
+  return text;
+}
+
+std::string CompareTimings(const TimingRun& before, const TimingRun& now) {
+  std::string text;
+  for (const Timing& timing : now.timings) {
+    const Timing* old = before.Find(timing.name);
+    if (old == nullptr || !timing.error.empty()) continue;
+    const double ratio = timing.median / old->median;
+    const double noise = std::max(0.05, timing.spread + old->spread);
+    if (std::abs(ratio - 1.0) <= noise) continue;
+    absl::StrAppendFormat(&text, "%-45s %s: %s, was %s (x %.2f)\n", timing.name,
+                          ratio > 1.0 ? "slower" : "faster",
+                          TimeText(timing.median), TimeText(old->median),
+                          ratio);
+  }
+  return text.empty() ? "No time changed by more than its spread.\n" : text;
+}
+
+}  // namespace emmy::verification

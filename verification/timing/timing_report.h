@@ -1,0 +1,41 @@
+// The timing report: ratios against their targets, growth, all times.
+
+#ifndef EMMY_VERIFICATION_TIMING_TIMING_REPORT_H_
+#define EMMY_VERIFICATION_TIMING_TIMING_REPORT_H_
+
+#include <string>
+#include <vector>
+
+#include "verification/timing/timing.h"
+
+namespace emmy::verification {
+
+// A time over another of the same run, and what it should be at most.
+struct Ratio {
+  std::string sentence;
+  std::string numerator;    // Names of benchmarks.
+  std::string denominator;  // Divided by.
+  double target = 0.0;
+  bool at_least = false;  // The ratio should be that large, not that small.
+};
+
+const std::vector<Ratio>& Ratios();
+
+// p of time = C size^p over the benchmarks NAME:<size>; what it should be.
+struct Growth {
+  std::string sentence;
+  std::vector<std::pair<double, std::string>> sizes;  // Size, benchmark.
+  double target = 0.0;
+};
+
+const std::vector<Growth>& Growths();
+
+// Markdown: tables of ratios, growth and times, and the environment.
+std::string TimingReport(const TimingRun& run);
+
+// What became slower or faster by more than the spread of both, one a line.
+std::string CompareTimings(const TimingRun& before, const TimingRun& now);
+
+}  // namespace emmy::verification
+
+#endif  // EMMY_VERIFICATION_TIMING_TIMING_REPORT_H_
