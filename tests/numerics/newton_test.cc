@@ -39,6 +39,21 @@ TEST(StagnationMonitorTest, GainingLessThanABitNearTheFloorIsStagnation) {
   EXPECT_TRUE(monitor.Update(1.5e-16, kFloor));
 }
 
+// The next would be 1e-21: lost in a floor of 1e-16.
+TEST(StagnationMonitorTest, ACorrectionThatLeavesLessThanRoundingIsTheLast) {
+  StagnationMonitor monitor;
+  EXPECT_FALSE(monitor.Update(1e-7, kFloor));
+  EXPECT_FALSE(monitor.Update(1e-11, kFloor));
+  EXPECT_FALSE(monitor.Update(1e-15, kFloor));  // 1e-19 would follow.
+  EXPECT_TRUE(monitor.Update(1e-18, kFloor));
+}
+
+TEST(StagnationMonitorTest, HowMuchMayBeLeftIsSaidAtTheStart) {
+  StagnationMonitor monitor(/*negligible=*/0x1p-6);
+  EXPECT_FALSE(monitor.Update(1e-11, kFloor));
+  EXPECT_TRUE(monitor.Update(1e-15, kFloor));
+}
+
 TEST(StagnationMonitorTest, GrowingNearTheFloorIsStagnation) {
   StagnationMonitor monitor;
   EXPECT_FALSE(monitor.Update(1e-16, kFloor));
