@@ -3,9 +3,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "tests/cli/program.h"
+#include "tests/support/schema_checker.h"
 
 namespace emmy {
 namespace {
@@ -60,8 +62,32 @@ TEST_F(VerifyTest, WritesReportAndFigures) {
   const auto json = nlohmann::json::parse(Read("out/report/report.json"));
   EXPECT_EQ(json.at("pass"), true);
   EXPECT_EQ(json.at("claims").at(0).at("id"), "figures/paper_6");
+  EXPECT_EQ(json.at("command"),
+            "emmy verify --only figures/paper_6 --output out/report");
+  EXPECT_GT(json.at("claims").at(0).at("wall_seconds"), 0.0);
+  EXPECT_THAT(Read("out/report/index.html"), HasSubstr("All 1 claims hold"));
+  EXPECT_THAT(Read("out/report/junit.xml"), HasSubstr("failures=\"0\""));
   EXPECT_THAT(Read("out/report/paper_figure_6.csv"), HasSubstr("time [s]"));
   EXPECT_THAT(Read("out/report/paper_figure_6.gp"), HasSubstr("plot data"));
+}
+
+TEST_F(VerifyTest, ReportIsValidByItsSchema) {
+  EXPECT_EQ(Run("verify --only figures/paper_6 --only penalty/locked_error "
+                "--output out")
+                .exit_status,
+            0);
+  const auto schema = nlohmann::json::parse(
+      std::ifstream(EMMY_SOURCE_DIR "/verification/report/report.schema.json"));
+  EXPECT_TRUE(SchemaChecker(schema).IsValid(
+      nlohmann::json::parse(Read("out/report.json"))));
+}
+
+TEST_F(VerifyTest, WithoutGnuplotThereIsAPageAllTheSame) {
+  const ProgramResult result =
+      Shell("PATH=none; \"$EMMY\" verify --only figures/paper_6 --output out");
+  EXPECT_EQ(result.exit_status, 0) << result.err;
+  EXPECT_THAT(result.err, HasSubstr("paper_figure_6.svg: not drawn"));
+  EXPECT_THAT(Read("out/index.html"), HasSubstr("Not drawn"));
 }
 
 TEST_F(RegenerateTest, CheckFindsTheStoredDataCurrent) {

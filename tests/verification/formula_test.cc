@@ -31,11 +31,11 @@ TEST(FormulaTest, AccentsStandAboveWhatTheyFollow) {
 }
 
 TEST(FormulaTest, AStrokeIsAFractionOfWhatStandsNextToIt) {
-  EXPECT_EQ(
-      FormulaHtml("2 Δs/(a + b)"),
-      "<math><mn>2</mn><mspace "
-      "width=\"0.17em\"></mspace><mfrac><mrow><mi>Δ</mi><mi>s</mi></mrow><mrow>"
-      "<mi>a</mi><mo>+</mo><mi>b</mi></mrow></mfrac></math>");
+  EXPECT_EQ(FormulaHtml("2 Δs/(a + b)"),
+            "<math><mn>2</mn><mspace "
+            "width=\"0.17em\"></mspace><mfrac "
+            "displaystyle=\"true\"><mrow><mi>Δ</mi><mi>s</mi></mrow><mrow>"
+            "<mi>a</mi><mo>+</mo><mi>b</mi></mrow></mfrac></math>");
 }
 
 TEST(FormulaTest, ParenthesesOfAListStayInAFraction) {

@@ -21,12 +21,13 @@ TEST(EscapeHtmlTest, ControlCharactersAreReplaced) {
   EXPECT_EQ(EscapeHtml(std::string("a\0b\x1B\tc\n", 7)), "a\uFFFDb\uFFFD\tc\n");
 }
 
-TEST(HtmlNumberTest, ShowsThreeDigitsAndKeepsAll) {
+TEST(HtmlNumberTest, ShowsAFewDigitsAndKeepsAll) {
   const std::string digits = "-8.8817841970012523e-16";
   EXPECT_EQ(HtmlNumber(-std::ldexp(1.0, -50)),
             "<data value=\"" + digits + "\" title=\"" + digits +
                 "\">−8.88&#8239;×&#8239;10<sup>−16</sup></data>");
   EXPECT_THAT(HtmlNumber(0.1), HasSubstr("value=\"0.10000000000000001\""));
+  EXPECT_THAT(HtmlNumber(1.99982), HasSubstr(">1.9998</data>"));
   EXPECT_THAT(HtmlNumber(-2.0), HasSubstr(">−2</data>"));
   EXPECT_THAT(HtmlNumber(0.0), HasSubstr(">0</data>"));
 }

@@ -16,9 +16,9 @@ std::string Element(const char* name, const std::string& content) {
 
 bool IsFunction(const std::string& word) {
   static const auto& functions = *new std::set<std::string>{
-      "sin",   "cos",   "tan",  "atan2", "exp", "log",    "cay",
-      "Pa",    "tr",    "diag", "sign",  "sn",  "cn",     "dn",
-      "axial", "Axial", "Hat",  "max",   "min", "TwoSum", "TwoProduct"};
+      "sin",   "cos",   "tan",  "atan", "exp", "log",    "cay",
+      "Pa",    "tr",    "diag", "sign", "sn",  "cn",     "dn",
+      "axial", "Axial", "Hat",  "max",  "min", "TwoSum", "TwoProduct"};
   return functions.count(word) > 0;
 }
 
@@ -163,7 +163,8 @@ class Formula {
       ++at_;
       const std::string above = Bare(term);
       const std::string below = Factors();
-      term = Element("mfrac", absl::StrCat(above, Bare(below)));
+      term = absl::StrCat("<mfrac displaystyle=\"true\">", above, Bare(below),
+                          "</mfrac>");
       bare_.clear();
     }
     return term;
@@ -261,7 +262,9 @@ class Formula {
     if (const std::string word = Letters(); word.size() >= 2) {
       if (IsFunction(word) || word == "EA") {
         at_ += word.size();
-        return Element("mi", word);
+        std::string name = word;
+        while (IsDigit(Peek())) name += Utf8(characters_[at_++]);  // atan2
+        return Element("mi", name);
       }
     }
     ++at_;

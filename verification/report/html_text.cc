@@ -35,7 +35,10 @@ std::string EscapeHtml(std::string_view text) {
 }
 
 std::string HtmlNumber(double value) {
-  std::string shown = absl::StrFormat("%.3g", value);
+  // An order of convergence needs more digits than a round-off error.
+  const double size = std::abs(value);
+  const int num_digits = size >= 0.1 && size < 1e5 ? 5 : 3;
+  std::string shown = absl::StrFormat("%.*g", num_digits, value);
   if (std::isnan(value)) {
     shown = "NaN";
   } else if (std::isinf(value)) {

@@ -12,8 +12,8 @@ namespace emmy::verification {
 // control characters, which XML has not, become U+FFFD.
 std::string EscapeHtml(std::string_view text);
 
-// A number as people write it, "3.2 × 10⁻¹⁶", in an element <data> whose value
-// has all digits; NaN and infinities are words.
+// A number as people write it, "3.21 × 10⁻¹⁶", "1.9998", in an element <data>
+// whose value has all digits; NaN is a word, infinities are signs.
 std::string HtmlNumber(double value);
 
 // RFC 4648, with padding.
