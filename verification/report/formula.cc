@@ -151,7 +151,7 @@ class Formula {
   // The word here, if it is one of a sentence; then takes it.
   std::string EnglishWord() {
     if (!BeginsEnglish(0)) return "";
-    const std::string word = Letters();
+    std::string word = Letters();
     at_ += word.size();
     return word;
   }
@@ -231,8 +231,9 @@ class Formula {
     } else if (Peek() == U'_') {
       ++at_;
       std::string name;
-      while (IsLetter(Peek()) || IsDigit(Peek()))
+      while (IsLetter(Peek()) || IsDigit(Peek())) {
         name += Utf8(characters_[at_++]);
+      }
       *sub += Element(name.size() > 2 ? "mtext" : "mi", EscapeHtml(name));
     } else if (Peek() == U'^') {
       ++at_;

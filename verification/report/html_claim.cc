@@ -69,12 +69,20 @@ std::string Download(const std::string& name, const char* type,
                       DataUri(type, text), "\">", EscapeHtml(name), "</a>");
 }
 
-std::string FigureHtml(const Figure& figure, const FigureImages& images) {
-  std::string columns;
-  for (const Column& column : figure.columns) {
-    absl::StrAppend(&columns, columns.empty() ? "" : ", ",
-                    EscapeHtml(column.name));
+// The names of a figure's columns, or how many there are.
+std::string ColumnText(const Figure& figure) {
+  if (figure.columns.size() > 4) {
+    return absl::StrCat(figure.columns.size(), " columns");
   }
+  std::string names;
+  for (const Column& column : figure.columns) {
+    absl::StrAppend(&names, names.empty() ? "" : ", ", column.name);
+  }
+  return EscapeHtml(names);
+}
+
+std::string FigureHtml(const Figure& figure, const FigureImages& images) {
+  const std::string columns = ColumnText(figure);
   std::string html = "<figure>\n";
   const auto image = images.find(figure.name);
   if (image != images.end()) {
