@@ -49,9 +49,13 @@ int Main(int argc, char** argv) {
 
 Exit status: 0 done; 1 a check failed or the computation could not go on;
 2 bad input or usage, nothing written.)");
+  // The program's name is what a person types, not where this build put it.
+  std::vector<std::string> command_line = {"emmy"};
+  for (int i = 1; i < argc; ++i) command_line.emplace_back(argv[i]);
   const std::vector<Command> commands = {
-      AddRunCommand(app), AddCheckCommand(app), AddVerifyCommand(app),
-      AddRegenerateCommand(app), AddGenerateCommand(app)};
+      AddRunCommand(app), AddCheckCommand(app),
+      AddVerifyCommand(app, command_line), AddRegenerateCommand(app),
+      AddGenerateCommand(app)};
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

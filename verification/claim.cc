@@ -1,6 +1,7 @@
 #include "verification/claim.h"
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 
 #include "absl/strings/str_cat.h"
@@ -63,7 +64,12 @@ Outcome Judge(const Claim& claim, Level level,
 }
 
 Outcome RunClaim(const Claim& claim, const ClaimSetting& setting) {
-  return Judge(claim, setting.level, claim.measure(setting));
+  const auto start = std::chrono::steady_clock::now();
+  Outcome outcome = Judge(claim, setting.level, claim.measure(setting));
+  outcome.wall_seconds =
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - start)
+          .count();
+  return outcome;
 }
 
 std::string ReferenceName(Reference reference) {

@@ -78,9 +78,10 @@ struct Outcome {
   Level level = Level::kQuick;
   bool pass = false;
   ClaimResult result;
-  std::string failure;  // Why not, with label, value and bound; else "".
-  MetricValue worst;    // The value with the least margin.
-  double margin = 0.0;  // Of `worst`, see Margin.
+  std::string failure;        // Why not, with label, value and bound; else "".
+  MetricValue worst;          // The value with the least margin.
+  double margin = 0.0;        // Of `worst`, see Margin.
+  double wall_seconds = 0.0;  // What measuring took; set by RunClaim.
 };
 
 // How far inside the bound a value lies: 1 at the middle of two limits or at

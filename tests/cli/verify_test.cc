@@ -3,9 +3,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "tests/cli/program.h"
+#include "tests/support/schema_checker.h"
 
 namespace emmy {
 namespace {
@@ -60,8 +63,58 @@ TEST_F(VerifyTest, WritesReportAndFigures) {
   const auto json = nlohmann::json::parse(Read("out/report/report.json"));
   EXPECT_EQ(json.at("pass"), true);
   EXPECT_EQ(json.at("claims").at(0).at("id"), "figures/paper_6");
+  EXPECT_EQ(json.at("command"),
+            "emmy verify --only figures/paper_6 --output out/report");
+  EXPECT_GT(json.at("claims").at(0).at("wall_seconds"), 0.0);
+  EXPECT_THAT(Read("out/report/index.html"), HasSubstr("All 1 claims hold"));
+  EXPECT_THAT(Read("out/report/junit.xml"), HasSubstr("failures=\"0\""));
   EXPECT_THAT(Read("out/report/paper_figure_6.csv"), HasSubstr("time [s]"));
   EXPECT_THAT(Read("out/report/paper_figure_6.gp"), HasSubstr("plot data"));
+}
+
+TEST_F(VerifyTest, ReportIsValidByItsSchema) {
+  EXPECT_EQ(Run("verify --only figures/paper_6 --only penalty/locked_error "
+                "--output out")
+                .exit_status,
+            0);
+  const auto schema = nlohmann::json::parse(
+      std::ifstream(EMMY_SOURCE_DIR "/verification/report/report.schema.json"));
+  EXPECT_TRUE(SchemaChecker(schema).IsValid(
+      nlohmann::json::parse(Read("out/report.json"))));
+}
+
+// A pendulum under a gravity that is not the published one: the claim fails.
+TEST_F(VerifyTest, ClaimThatFailsIsSaidEverywhereAndIsTheExitStatus) {
+  const ProgramResult result = Shell(
+      "cp -r '" EMMY_SOURCE_DIR "/reference_data' '" EMMY_SOURCE_DIR
+      "/examples' . && sed -i s/-9.81/-9.82/ examples/simple_pendulum.json && "
+      "EMMY_PROJECT_DIRECTORY=. \"$EMMY\" verify "
+      "--only external/pendulum_phase --only external/positions --output out");
+  EXPECT_EQ(result.exit_status, 1) << result.err;
+  const std::string command =
+      "emmy verify --only external/pendulum_phase --level quick";
+  EXPECT_THAT(result.out,
+              AllOf(HasSubstr("FAILED external/pendulum_phase"),
+                    HasSubstr("1 of 2 claims hold"), HasSubstr(command)));
+  const auto json = nlohmann::json::parse(Read("out/report.json"));
+  EXPECT_EQ(json.at("pass"), false);
+  const auto& values = json.at("claims").at(1).at("values");
+  EXPECT_NEAR(values.at(0).at("value").get<double>(),
+              1.0 - std::sqrt(9.81 / 9.82), 1e-7);
+  EXPECT_THAT(Read("out/index.html"),
+              AllOf(HasSubstr("verdict red"), HasSubstr("1 of 2 claims failed"),
+                    HasSubstr("id=\"failures\""), HasSubstr(command),
+                    HasSubstr("<data value=\"2.9999999999999997e-08\"")));
+  EXPECT_THAT(Read("out/junit.xml"),
+              AllOf(HasSubstr("failures=\"1\""), HasSubstr(command)));
+}
+
+TEST_F(VerifyTest, WithoutGnuplotThereIsAPageAllTheSame) {
+  const ProgramResult result =
+      Shell("PATH=none; \"$EMMY\" verify --only figures/paper_6 --output out");
+  EXPECT_EQ(result.exit_status, 0) << result.err;
+  EXPECT_THAT(result.err, HasSubstr("paper_figure_6.svg: not drawn"));
+  EXPECT_THAT(Read("out/index.html"), HasSubstr("Not drawn"));
 }
 
 TEST_F(RegenerateTest, CheckFindsTheStoredDataCurrent) {

@@ -13,7 +13,7 @@
 #include "emmy/io/case_keys.h"
 #include "emmy/model/model_builder.h"
 #include "tests/io/sample_case.h"
-#include "tests/io/schema_checker.h"
+#include "tests/support/schema_checker.h"
 
 namespace emmy {
 namespace {

@@ -49,6 +49,7 @@ TEST(RunClaimsTest, OutcomesDoNotDependOnTheNumberOfThreads) {
   for (size_t i = 0; i < claims.size(); ++i) {
     EXPECT_EQ(one[i].claim, claims[i]);
     EXPECT_EQ(four[i].claim, claims[i]);
+    EXPECT_GT(one[i].wall_seconds, 0.0);
     ASSERT_EQ(one[i].result.values.size(), four[i].result.values.size());
     for (size_t k = 0; k < one[i].result.values.size(); ++k) {
       EXPECT_EQ(one[i].result.values[k].value, four[i].result.values[k].value);

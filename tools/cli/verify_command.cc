@@ -3,6 +3,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cstdio>
 #include <memory>
 #include <string>
@@ -16,8 +17,9 @@
 #include "tools/cli/print.h"
 #include "verification/registry.h"
 #include "verification/report/claim_table.h"
-#include "verification/report/json_report.h"
+#include "verification/report/environment.h"
 #include "verification/report/text_report.h"
+#include "verification/report/write_report.h"
 
 namespace emmy {
 namespace {
@@ -31,6 +33,7 @@ struct Arguments {
   std::vector<std::string> only;
   std::string level = "quick";
   std::string output;
+  std::vector<std::string> command_line;  // With the program's name.
 };
 
 // Those of `ids`, in the order of the registry; all if there are none.
@@ -84,26 +87,6 @@ class Counter {
   bool enabled_;
 };
 
-// The report and the figures. A figure that cannot be drawn is said, but does
-// not change the verdict: its data and script are there.
-absl::Status WriteReport(const std::vector<Outcome>& outcomes,
-                         const std::string& directory) {
-  absl::Status status = WriteTextFile(directory + "/report.json",
-                                      verification::JsonReport(outcomes));
-  if (!status.ok()) return status;
-  for (const Outcome& outcome : outcomes) {
-    for (const verification::Figure& figure : outcome.result.figures) {
-      status = verification::WriteFigure(figure, directory);
-      if (absl::IsUnavailable(status)) {
-        PrintError(status, kExitDone);
-      } else if (!status.ok()) {
-        return status;
-      }
-    }
-  }
-  return absl::OkStatus();
-}
-
 ExitStatus Verify(const Arguments& arguments) {
   const absl::StatusOr<std::vector<const Claim*>> claims =
       Select(arguments.only);
@@ -121,22 +104,34 @@ ExitStatus Verify(const Arguments& arguments) {
   verification::ClaimSetting setting;
   setting.level = arguments.level == "quick" ? verification::Level::kQuick
                                              : verification::Level::kFull;
-  const int threads =
+  verification::Environment environment =
+      verification::DescribeEnvironment(arguments.command_line);
+  environment.threads =
       std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+  const auto start = std::chrono::steady_clock::now();
   std::vector<Outcome> outcomes;
   {
     Counter counter(claims->size());
     outcomes = verification::RunClaims(
-        *claims, setting, threads,
+        *claims, setting, environment.threads,
         [&counter](const Outcome& outcome) { counter.Finished(outcome); });
   }
+  environment.wall_seconds =
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - start)
+          .count();
   for (const Outcome& outcome : outcomes) {
     Print(verification::OutcomeText(outcome));
   }
   if (!arguments.output.empty()) {
-    const absl::Status written = WriteReport(outcomes, arguments.output);
-    if (!written.ok()) return PrintError(written, kExitFailed);
-    Print("Wrote " + arguments.output + "/report.json and its figures\n");
+    const absl::StatusOr<std::vector<std::string>> written =
+        verification::WriteReport(outcomes, environment, arguments.output);
+    if (!written.ok()) return PrintError(written.status(), kExitFailed);
+    // Said, but no reason for another verdict: data and script are there.
+    for (const std::string& message : *written) {
+      PrintError(absl::UnavailableError(message), kExitDone);
+    }
+    Print("Wrote " + arguments.output +
+          "/index.html, report.json, junit.xml and figures\n");
   }
   Print(verification::VerdictText(outcomes));
   const bool pass = std::all_of(outcomes.begin(), outcomes.end(),
@@ -146,7 +141,8 @@ ExitStatus Verify(const Arguments& arguments) {
 
 }  // namespace
 
-Command AddVerifyCommand(CLI::App& app) {
+Command AddVerifyCommand(CLI::App& app,
+                         const std::vector<std::string>& command_line) {
   CLI::App* options = app.add_subcommand(
       "verify", "Measure what is claimed about Emmy, and judge");
   const auto arguments = std::make_shared<Arguments>();
@@ -172,18 +168,25 @@ Command AddVerifyCommand(CLI::App& app) {
       ->type_name("LEVEL");
   options
       ->add_option("-o,--output", arguments->output,
-                   "Write report.json and the figures (CSV, gnuplot script, "
-                   "SVG) into this directory, which is made if needed")
+                   "Write the report into this directory, which is made if "
+                   "needed: index.html, report.json, junit.xml, and each "
+                   "figure as CSV, gnuplot script and SVG")
       ->type_name("DIR");
   options->footer(R"(
 Each claim is one line: id, verdict, the value closest to its bound, the bound,
 the part of it that is left (margin). Failures are repeated at the end. Exit
 status: 0 all claims hold; 1 not; 2 wrong usage.
 
+index.html is the report to read: one file that needs no other, with verdict,
+failures, all claims, equations, figures with their data, and how it was made.
+report.json has the same for programs (verification/report/report.schema.json),
+junit.xml for CI systems.
+
 Examples:
   emmy verify --list
   emmy verify --level quick --output report
   emmy verify --only order/ancf_body)");
+  arguments->command_line = command_line;
   return {options, [arguments] { return Verify(*arguments); }};
 }
 

@@ -3,11 +3,16 @@
 #ifndef EMMY_TOOLS_CLI_VERIFY_COMMAND_H_
 #define EMMY_TOOLS_CLI_VERIFY_COMMAND_H_
 
+#include <string>
+#include <vector>
+
 #include "tools/cli/command.h"
 
 namespace emmy {
 
-Command AddVerifyCommand(CLI::App& app);
+// The report tells `command_line`, the program's name and its arguments.
+Command AddVerifyCommand(CLI::App& app,
+                         const std::vector<std::string>& command_line);
 
 }  // namespace emmy
 

@@ -67,6 +67,15 @@ emmy_install() {
   fi
 }
 
+# As emmy_install, for packages that only some tests need: these are skipped
+# where it fails, and say so. Other distributions may call them otherwise.
+emmy_install_optional() {
+  local missing
+  command -v dpkg-query >/dev/null || return 0
+  missing="$(emmy_missing_packages "$@")"
+  (emmy_install "$@") || emmy_say "Going on without" ${missing}
+}
+
 # Configures and builds a preset; further arguments are targets.
 emmy_build() {
   local preset="$1" target targets=()

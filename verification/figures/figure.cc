@@ -1,6 +1,8 @@
 #include "verification/figures/figure.h"
 
 #include <cstdlib>
+#include <filesystem>
+#include <system_error>
 
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_format.h"
@@ -69,6 +71,9 @@ absl::Status WriteFigure(const Figure& figure, const std::string& directory) {
   if (!status.ok()) return status;
   status = WriteTextFile(path + ".gp", FigureScript(figure));
   if (!status.ok()) return status;
+  // An image of an earlier run does not belong to these data.
+  std::error_code ignored;
+  std::filesystem::remove(path + ".svg", ignored);
   const std::string command =
       absl::StrCat("cd ", ShellQuoted(directory), " && gnuplot ",
                    ShellQuoted(figure.name + ".gp"));

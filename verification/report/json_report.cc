@@ -4,8 +4,8 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "emmy/base/build_info.h"
 #include "emmy/io/json_text.h"
+#include "verification/report/html_claim.h"
 
 namespace emmy::verification {
 namespace {
@@ -47,22 +47,30 @@ Json OutcomeJson(const Outcome& outcome) {
                                {"data", figure.name + ".csv"},
                                {"script", figure.name + ".gp"}});
   }
-  json["command"] = claim.command() + " --level " + LevelName(outcome.level);
+  json["wall_seconds"] = outcome.wall_seconds;
+  json["command"] = RerunCommand(outcome);
   return json;
 }
 
 }  // namespace
 
-std::string JsonReport(const std::vector<Outcome>& outcomes) {
-  const BuildInfo build = GetBuildInfo();
+std::string JsonReport(const std::vector<Outcome>& outcomes,
+                       const Environment& environment) {
   Json json;
   json["format"] = "emmy-report/1";
-  json["pass"] = std::all_of(outcomes.begin(), outcomes.end(),
-                             [](const Outcome& o) { return o.pass; });
+  json["pass"] =
+      !outcomes.empty() && std::all_of(outcomes.begin(), outcomes.end(),
+                                       [](const Outcome& o) { return o.pass; });
   json["level"] = outcomes.empty() ? "" : LevelName(outcomes[0].level);
-  json["build"] = {{"version", build.version},
-                   {"compiler", build.compiler},
-                   {"flags", build.flags}};
+  json["date"] = environment.date;
+  json["wall_seconds"] = environment.wall_seconds;
+  json["build"] = {{"version", environment.build.version},
+                   {"compiler", environment.build.compiler},
+                   {"flags", environment.build.flags}};
+  json["machine"] = {{"processor", environment.processor},
+                     {"system", environment.system},
+                     {"threads", environment.threads}};
+  json["command"] = environment.command;
   json["claims"] = Json::array();
   for (const Outcome& outcome : outcomes) {
     json["claims"].push_back(OutcomeJson(outcome));

@@ -1,4 +1,4 @@
-#include "tests/io/schema_checker.h"
+#include "tests/support/schema_checker.h"
 
 #include <algorithm>
 #include <cmath>

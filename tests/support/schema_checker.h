@@ -1,10 +1,10 @@
-// Judges a JSON value by a JSON Schema, for the keywords our schema uses.
+// Judges a JSON value by a JSON Schema, for the keywords our schemas use.
 //
 // A keyword it does not know is an error, so that no rule of the schema is
 // passed over in silence.
 
-#ifndef EMMY_TESTS_IO_SCHEMA_CHECKER_H_
-#define EMMY_TESTS_IO_SCHEMA_CHECKER_H_
+#ifndef EMMY_TESTS_SUPPORT_SCHEMA_CHECKER_H_
+#define EMMY_TESTS_SUPPORT_SCHEMA_CHECKER_H_
 
 #include <nlohmann/json.hpp>
 
@@ -32,4 +32,4 @@ class SchemaChecker {
 
 }  // namespace emmy
 
-#endif  // EMMY_TESTS_IO_SCHEMA_CHECKER_H_
+#endif  // EMMY_TESTS_SUPPORT_SCHEMA_CHECKER_H_
