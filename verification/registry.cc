@@ -15,7 +15,7 @@ const std::vector<Claim>& AllClaims() {
     for (const auto& group :
          {ConservationClaims, GrowthClaims, LargeStepClaims, PenaltyClaims,
           OrderClaims, ExternalClaims, ExternalStructureClaims, StructureClaims,
-          FigureClaims}) {
+          BaselineClaims, FigureClaims}) {
       for (Claim& claim : group()) all->push_back(std::move(claim));
     }
     return all;
