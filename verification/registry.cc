@@ -12,10 +12,10 @@ namespace emmy::verification {
 const std::vector<Claim>& AllClaims() {
   static const std::vector<Claim>* const claims = [] {
     auto* all = new std::vector<Claim>;
-    for (const auto& group :
-         {ConservationClaims, GrowthClaims, LargeStepClaims, PenaltyClaims,
-          OrderClaims, ExternalClaims, ExternalStructureClaims, StructureClaims,
-          BaselineClaims, FigureClaims}) {
+    for (const auto& group : {ConservationClaims, GrowthClaims, LargeStepClaims,
+                              PenaltyClaims, AngularVelocityClaims, OrderClaims,
+                              ExternalClaims, ExternalStructureClaims,
+                              StructureClaims, BaselineClaims, FigureClaims}) {
       for (Claim& claim : group()) all->push_back(std::move(claim));
     }
     return all;
