@@ -76,7 +76,10 @@ StepReport StepGeneralizedAlpha(const ElasticSystem& system, double time_step,
                                 const GeneralizedAlpha& parameters,
                                 Motion* motion) {
   const double dt = time_step;
-  const auto& [alpha_m, alpha_f, beta, gamma] = parameters;
+  const double alpha_m = parameters.alpha_m;
+  const double alpha_f = parameters.alpha_f;
+  const double beta = parameters.beta;
+  const double gamma = parameters.gamma;
   const VectorXd& a0 = motion->acceleration;
   const VectorXd start =
       motion->position + dt * motion->velocity + dt * dt * (0.5 - beta) * a0;

@@ -105,7 +105,7 @@ set mxtics 1
 set mytics 1
 set xlabel 'Penalty α  [Pa]'
 set key off
-array method[4] = ['polar (dashed: exact)', 'locked', 'extrapolated in α', \
+array method[4] = ['polar (dashed: polar exact)', 'locked', 'extrapolated in α', \
   'locked, against Jacobi''s solution']
 array colour[4] = [2, 1, 3, 6]
 array place[4] = [0.10, 0.33, 0.47, 0.67]
