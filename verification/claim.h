@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "absl/status/statusor.h"
+#include "verification/baselines/baseline_scheme.h"
 #include "verification/figures/figure.h"
 #include "verification/runs/scheme.h"
 
@@ -54,6 +55,8 @@ struct ClaimSetting {
   Level level = Level::kQuick;
   // How runs are advanced; tests put wrong variants here.
   Scheme scheme = EnergyMomentumScheme;
+  // The integrators to compare with, likewise.
+  BaselineSource baseline = BaselineScheme;
 };
 
 struct Claim {

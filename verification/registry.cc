@@ -14,8 +14,9 @@ const std::vector<Claim>& AllClaims() {
     auto* all = new std::vector<Claim>;
     for (const auto& group :
          {ConservationClaims, GrowthClaims, LargeStepClaims, PenaltyClaims,
-          OrderClaims, CompositionClaims, ExternalClaims,
-          ExternalStructureClaims, StructureClaims, FigureClaims}) {
+          AngularVelocityClaims, OrderClaims, CompositionClaims, ExternalClaims,
+          ExternalStructureClaims, StructureClaims, BaselineClaims,
+          FigureClaims}) {
       for (Claim& claim : group()) all->push_back(std::move(claim));
     }
     return all;

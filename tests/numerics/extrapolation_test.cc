@@ -22,7 +22,9 @@ class PolynomialTest : public ::testing::TestWithParam<int> {};
 // Whole numbers, so that differences are exact.
 TEST_P(PolynomialTest, IsPredictedExactlyOnceThereAreEnoughValues) {
   const int degree = GetParam();
-  const auto value = [degree](int n) { return std::pow(n - 3.0, degree) + 2.0; };
+  const auto value = [degree](int n) {
+    return std::pow(n - 3.0, degree) + 2.0;
+  };
   Extrapolation sequence;
   sequence.SetZero(1);
   for (int n = 0; n < 12; ++n) {

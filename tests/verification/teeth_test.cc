@@ -21,13 +21,21 @@ struct Tooth {
   const char* claim;
   const char* variant;
   Scheme scheme;
+  BaselineSource baseline = BaselineScheme;
   friend void PrintTo(const Tooth& tooth, std::ostream* os) {
     *os << tooth.claim << " by " << tooth.variant;
   }
 };
 
+// One method in the place of every baseline.
+BaselineSource Always(Baseline baseline) {
+  return [baseline](Baseline) { return BaselineScheme(baseline); };
+}
+Scheme AlwaysEnergyMomentum(Baseline) { return EnergyMomentumScheme; }
+
 const std::vector<Tooth>& Teeth() {
   const Scheme plain = PlainArithmeticScheme;
+  const Scheme right = EnergyMomentumScheme;
   static const std::vector<Tooth>* const teeth = new std::vector<Tooth>{
       {"conservation/energy", "PlainArithmetic", plain},
       {"conservation/energy", "LooseNewton", LooseNewton(1e-6)},
@@ -81,6 +89,30 @@ const std::vector<Tooth>& Teeth() {
       {"structures/chain_joints", "PlainArithmetic", plain},
       {"structures/slack_energy", "LooseNewton", LooseNewton(1e-2)},
       {"structures/slack_changes", "StandingClock", WrongClock(-1.0 + 1e-6)},
+      {"angular_velocity/extrapolation_relaxed", "StrainKick",
+       StrainKick(1e-6)},
+      {"angular_velocity/extrapolation_undeformed", "StrainKick",
+       StrainKick(1e-4)},
+      {"angular_velocity/time_step_floor", "WrongClock",
+       WrongClock(1e-6, true)},
+      {"angular_velocity/extrapolated_in_both", "WrongClock", WrongClock(1e-6)},
+      {"baselines/box_energy", "LooseNewton", LooseNewton(1e-3)},
+      {"baselines/box_energy", "SameMethod", right, AlwaysEnergyMomentum},
+      {"baselines/truss_energy", "LooseNewton", LooseNewton(1e-3)},
+      {"baselines/truss_energy", "SameMethod", right, AlwaysEnergyMomentum},
+      {"baselines/energy_map", "SameMethod", right, AlwaysEnergyMomentum},
+      {"baselines/kept_angular_momentum", "Newmark", right,
+       Always(Baseline::kNewmark)},
+      {"baselines/newmark_angular_momentum", "Midpoint", right,
+       Always(Baseline::kMidpoint)},
+      {"baselines/midpoint_energy", "Newmark", right,
+       Always(Baseline::kNewmark)},
+      {"baselines/verlet_limit", "Midpoint", right,
+       Always(Baseline::kMidpoint)},
+      {"baselines/large_steps", "GeneralizedAlpha", right,
+       Always(Baseline::kGeneralizedAlpha)},
+      {"baselines/generalized_alpha_damping", "Newmark", right,
+       Always(Baseline::kNewmark)},
       {"figures/paper_8", "WrongClock", WrongClock(1e-3, true)},
       {"figures/paper_9", "BiasedRounding", BiasedRounding(1e-16)},
       {"figures/paper_5", "WrongClock", WrongClock(1e-3, true)},
@@ -97,6 +129,7 @@ TEST_P(TeethTest, RefutesTheClaim) {
   ASSERT_NE(claim, nullptr) << GetParam().claim;
   ClaimSetting setting;
   setting.scheme = GetParam().scheme;
+  setting.baseline = GetParam().baseline;
   const Outcome outcome = RunClaim(*claim, setting);
   EXPECT_FALSE(outcome.pass);
   // By a measured value, not by something that went wrong on the way.

@@ -9,16 +9,18 @@
 
 namespace emmy::verification {
 
-std::vector<Claim> ConservationClaims();  // conservation.cc
-std::vector<Claim> GrowthClaims();        // growth.cc
-std::vector<Claim> LargeStepClaims();     // large_steps.cc
-std::vector<Claim> PenaltyClaims();       // penalty.cc
-std::vector<Claim> OrderClaims();         // order.cc
-std::vector<Claim> CompositionClaims();   // composition.cc
-std::vector<Claim> ExternalClaims();      // external.cc
+std::vector<Claim> ConservationClaims();     // conservation.cc
+std::vector<Claim> GrowthClaims();           // growth.cc
+std::vector<Claim> LargeStepClaims();        // large_steps.cc
+std::vector<Claim> PenaltyClaims();          // penalty.cc
+std::vector<Claim> AngularVelocityClaims();  // angular_velocity.cc
+std::vector<Claim> OrderClaims();            // order.cc
+std::vector<Claim> CompositionClaims();      // composition.cc
+std::vector<Claim> ExternalClaims();         // external.cc
 // external_structures.cc
 std::vector<Claim> ExternalStructureClaims();
 std::vector<Claim> StructureClaims();  // structures.cc
+std::vector<Claim> BaselineClaims();   // baselines.cc
 std::vector<Claim> FigureClaims();     // figures.cc
 
 }  // namespace emmy::verification
