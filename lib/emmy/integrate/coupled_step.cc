@@ -210,7 +210,10 @@ BodyStepResult CoupledStep::Iterate(bool exact) {
     end_.noalias() = mean_ + 0.5 * dq_;
     if (!exact) {
       tangent_.FollowBodies(mean_, end_);
-      if (renew_ || options_.always_factorize) {
+      // A small factor costs less than the iterations it saves.
+      const bool cheap =
+          i == 1 && tangent_.method() == SymmetricFactor::Method::kDense;
+      if (renew_ || cheap || options_.always_factorize) {
         renewed = true;
         if (!Renew()) {
           result.termination = Termination::kSingularTangent;
