@@ -54,6 +54,9 @@ struct ClaimSetting {
   Level level = Level::kQuick;
   // How runs are advanced; tests put wrong variants here.
   Scheme scheme = EnergyMomentumScheme;
+  // Relative error put into what the library computes, where a claim takes no
+  // steps; tests set it.
+  double fault = 0.0;
 };
 
 struct Claim {
