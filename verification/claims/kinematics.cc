@@ -5,8 +5,7 @@
 #include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <random>
+#include <cstdint>
 #include <utility>
 
 #include "emmy/diagnostics/angular_velocity.h"
@@ -16,37 +15,19 @@
 #include "emmy/numerics/polar.h"
 #include "emmy/numerics/rotation.h"
 #include "verification/claims/groups.h"
+#include "verification/claims/long_double.h"
+#include "verification/runs/larger.h"
 #include "verification/runs/paper_box.h"
 
 namespace emmy::verification {
 namespace {
 
-using Real = long double;
-using RealVector = Eigen::Matrix<Real, 3, 1>;
-using RealMatrix = Eigen::Matrix<Real, 3, 3>;
-
-constexpr double kUnitRoundoff = std::numeric_limits<double>::epsilon() / 2.0;
 constexpr int kTrials = 200;
+constexpr uint64_t kSeed = 20261121;
 
-// Evenly in [-1, 1), the same numbers with every library.
-class Random {
- public:
-  double Next() {
-    return 2.0 * static_cast<double>(engine_() >> 11U) * 0x1p-53 - 1.0;
-  }
-  template <typename Matrix>
-  Matrix Entries(double size) {
-    Matrix m;
-    for (Eigen::Index i = 0; i < m.size(); ++i) m(i) = size * Next();
-    return m;
-  }
-  Matrix3d Rotation() {
-    return QuaternionToMatrix(Entries<Vector4d>(1.0).normalized().eval());
-  }
-
- private:
-  std::mt19937_64 engine_{20261121};
-};
+Matrix3d AnyRotation(SampleSource* random) {
+  return QuaternionToMatrix(random->Entries<Vector4d>(1.0).normalized().eval());
+}
 
 // The paper's box anywhere, deformed, in any motion.
 struct Sample {
@@ -54,13 +35,13 @@ struct Sample {
   Matrix3d gradients, rates;
 };
 
-Sample AnySample(Random* random) {
+Sample AnySample(SampleSource* random) {
   Sample sample;
   sample.position = random->Entries<Vector3d>(5.0);
   sample.velocity = random->Entries<Vector3d>(2.0);
   const Matrix3d stretch =
       Matrix3d::Identity() + random->Entries<Matrix3d>(0.1);
-  sample.gradients = random->Rotation() * stretch;
+  sample.gradients = AnyRotation(random) * stretch;
   sample.rates = random->Entries<Matrix3d>(1.0);
   return sample;
 }
@@ -82,7 +63,7 @@ struct Sum {
   }
   double Error(const Vector3d& computed) const {
     return static_cast<double>((computed.cast<Real>() - value).norm() /
-                               (size * kUnitRoundoff));
+                               (size * Wide(kUnitRoundoff)));
   }
 };
 
@@ -91,7 +72,7 @@ absl::StatusOr<BuiltModel> Box() { return BuildModel(PaperBoxAncf(1e10)); }
 absl::StatusOr<ClaimResult> Points(const ClaimSetting& setting) {
   absl::StatusOr<BuiltModel> built = Box();
   if (!built.ok()) return built.status();
-  Random random;
+  SampleSource random(kSeed);
   double position = 0.0;
   double velocity = 0.0;
   for (int trial = 0; trial < kTrials; ++trial) {
@@ -108,13 +89,13 @@ absl::StatusOr<ClaimResult> Points(const ClaimSetting& setting) {
     x.Add(sample.position.cast<Real>());
     v.Add(sample.velocity.cast<Real>());
     for (int i = 0; i < 3; ++i) {
-      x.Add(Real{xi(i)} * sample.gradients.col(i).cast<Real>());
-      v.Add(Real{xi(i)} * sample.rates.col(i).cast<Real>());
+      x.Add(Wide(xi(i)) * sample.gradients.col(i).cast<Real>());
+      v.Add(Wide(xi(i)) * sample.rates.col(i).cast<Real>());
     }
     position =
-        std::max(position, x.Error((1.0 + setting.fault) * motion.position));
+        Larger(position, x.Error((1.0 + setting.fault) * motion.position));
     velocity =
-        std::max(velocity, v.Error((1.0 + setting.fault) * motion.velocity));
+        Larger(velocity, v.Error((1.0 + setting.fault) * motion.velocity));
   }
   return ClaimResult{.values = {{"position", position}, {"velocity", velocity}},
                      .figures = {},
@@ -125,7 +106,7 @@ absl::StatusOr<ClaimResult> Points(const ClaimSetting& setting) {
 absl::StatusOr<ClaimResult> ConstantMass(const ClaimSetting& setting) {
   const absl::StatusOr<BuiltModel> still = Box();
   if (!still.ok()) return still.status();
-  Random random;
+  SampleSource random(kSeed);
   double different = 0.0;
   double entries = 0.0;
   for (int trial = 0; trial < kTrials; ++trial) {
@@ -186,7 +167,7 @@ absl::StatusOr<ClaimResult> Momenta(const ClaimSetting& setting) {
   absl::StatusOr<BuiltModel> built = Box();
   if (!built.ok()) return built.status();
   const Matrix3d inertia = built->model.bodies()[0].inertia().tensor;
-  Random random;
+  SampleSource random(kSeed);
   double energy = 0.0;
   double momentum = 0.0;
   double angular = 0.0;
@@ -197,18 +178,19 @@ absl::StatusOr<ClaimResult> Momenta(const ClaimSetting& setting) {
     Invariants computed = MeasureInvariants(built->model, built->state);
     const double wrong = 1.0 + setting.fault;
     const MaterialSums sums = SumOverMaterial(sample);
-    energy = std::max(energy, static_cast<double>(std::abs(
-                                  wrong * computed.kinetic_energy.ToDouble() /
-                                      sums.kinetic_energy -
-                                  1.0L)) /
-                                  kUnitRoundoff);
-    momentum = std::max(
+    energy = Larger(
+        energy, static_cast<double>(
+                    std::abs(Wide(wrong * computed.kinetic_energy.ToDouble()) /
+                                 sums.kinetic_energy -
+                             1.0L)) /
+                    kUnitRoundoff);
+    momentum = Larger(
         momentum, sums.momentum.Error(wrong * computed.momentum.ToDouble()));
     angular =
-        std::max(angular, sums.angular_momentum.Error(
-                              wrong * computed.angular_momentum.ToDouble()));
+        Larger(angular, sums.angular_momentum.Error(
+                            wrong * computed.angular_momentum.ToDouble()));
     // Moving as a rigid body does: the conventional expression.
-    const Matrix3d rotation = random.Rotation();
+    const Matrix3d rotation = AnyRotation(&random);
     const auto omega = random.Entries<Vector3d>(1.0);
     sample.gradients = rotation;
     sample.rates = Hat(omega) * rotation;
@@ -219,8 +201,8 @@ absl::StatusOr<ClaimResult> Momenta(const ClaimSetting& setting) {
     Sum expected;
     expected.Add(sample.position.cast<Real>().cross(p));
     expected.Add(r * inertia.cast<Real>() * r.transpose() * omega.cast<Real>());
-    expected.size += sample.position.norm() * p.norm();
-    rigid = std::max(
+    expected.size += Wide(sample.position.norm()) * p.norm();
+    rigid = Larger(
         rigid, expected.Error(wrong * computed.angular_momentum.ToDouble()));
   }
   return ClaimResult{
@@ -247,7 +229,7 @@ RealVector AxialOf(const RealMatrix& x) {
 RealVector SpinOfAttitude(const RealMatrix& e, const RealMatrix& rates) {
   constexpr Real kStep = 1e-4L;
   const auto at = [&](int k) -> RealMatrix {
-    return PolarRotation(e + (k * kStep) * rates);
+    return PolarRotation(e + (static_cast<Real>(k) * kStep) * rates);
   };
   const RealMatrix derivative =
       (8.0L * (at(1) - at(-1)) - (at(2) - at(-2))) / (12.0L * kStep);
@@ -259,7 +241,7 @@ absl::StatusOr<ClaimResult> Attitude(const ClaimSetting& setting) {
   if (!built.ok()) return built.status();
   const Matrix3d& moment = built->model.bodies()[0].ancf()->second_moment();
   const double wrong = 1.0 + setting.fault;
-  Random random;
+  SampleSource random(kSeed);
   double attitude = 0.0;
   double polar_error = 0.0;
   double exact_error = 0.0;
@@ -267,7 +249,7 @@ absl::StatusOr<ClaimResult> Attitude(const ClaimSetting& setting) {
   const auto relative = [&](const Vector3d& computed,
                             const RealVector& expected) {
     return static_cast<double>(
-               (wrong * computed.cast<Real>() - expected).norm() /
+               (Wide(wrong) * computed.cast<Real>() - expected).norm() /
                expected.norm()) /
            kUnitRoundoff;
   };
@@ -281,30 +263,31 @@ absl::StatusOr<ClaimResult> Attitude(const ClaimSetting& setting) {
     const RealMatrix w = rates.cast<Real>();
     const PolarDecomposition polar = DecomposePolar(sample.gradients);
     const RealMatrix rotation = PolarRotation(e);
-    attitude = std::max(
-        attitude, static_cast<double>(
-                      (wrong * polar.rotation.cast<Real>() - rotation).norm()) /
-                      kUnitRoundoff);
+    attitude = Larger(
+        attitude,
+        static_cast<double>(
+            (Wide(wrong) * polar.rotation.cast<Real>() - rotation).norm()) /
+            kUnitRoundoff);
     const RealMatrix stretch = rotation.transpose() * e;
-    polar_error = std::max(
-        polar_error,
-        relative(PolarAngularVelocity(polar, rates),
-                 AxialOf(w * stretch.inverse() * rotation.transpose())));
+    polar_error =
+        Larger(polar_error,
+               relative(PolarAngularVelocity(polar, rates),
+                        AxialOf(w * stretch.inverse() * rotation.transpose())));
     exact_error =
-        std::max(exact_error, relative(ExactPolarAngularVelocity(polar, rates),
-                                       SpinOfAttitude(e, w)));
+        Larger(exact_error, relative(ExactPolarAngularVelocity(polar, rates),
+                                     SpinOfAttitude(e, w)));
     RealVector momentum = RealVector::Zero();
     RealMatrix inertia = RealMatrix::Zero();
     for (int i = 0; i < 3; ++i) {
-      const Real m = moment(i, i);
+      const Real m = Wide(moment(i, i));
       momentum += m * e.col(i).cross(w.col(i));
       inertia += m * (e.col(i).squaredNorm() * RealMatrix::Identity() -
                       e.col(i) * e.col(i).transpose());
     }
-    locked_error = std::max(
-        locked_error,
-        relative(LockedAngularVelocity(moment, sample.gradients, rates),
-                 inertia.inverse() * momentum));
+    locked_error =
+        Larger(locked_error,
+               relative(LockedAngularVelocity(moment, sample.gradients, rates),
+                        inertia.inverse() * momentum));
   }
   return ClaimResult{.values = {{"attitude", attitude},
                                 {"polar", polar_error},

@@ -10,6 +10,7 @@
 #include "emmy/element/relaxed_start.h"
 #include "verification/claims/groups.h"
 #include "verification/runs/fit.h"
+#include "verification/runs/larger.h"
 #include "verification/runs/motion_error.h"
 #include "verification/runs/paper_box.h"
 #include "verification/runs/run.h"
@@ -77,7 +78,7 @@ absl::StatusOr<ClaimResult> Frequency(const ClaimSetting& setting) {
     for (size_t i = 1; i + 1 < strain.size(); ++i) {
       product += strain[i] * (strain[i - 1] + strain[i + 1]);
       square += 2.0 * strain[i] * strain[i];
-      largest = std::max(largest, std::abs(strain[i]));
+      largest = Larger(largest, std::abs(strain[i]));
     }
     const double phase = std::acos(product / square);
     const double expected = 2.0 * std::atan(0.5 * frequency * time_step);
@@ -149,9 +150,8 @@ absl::StatusOr<ClaimResult> Relaxed(const ClaimSetting& setting) {
           const Vector6d needed = RelaxedStrain(
               Element(advanced), attitude.conjugate() * motion.omega_locked);
           const Vector6d strain = advanced.state().strain.value.head<6>();
-          distance =
-              std::max(distance, (strain - needed).cwiseAbs().maxCoeff());
-          size = std::max(size, needed.cwiseAbs().maxCoeff());
+          distance = Larger(distance, (strain - needed).cwiseAbs().maxCoeff());
+          size = Larger(size, needed.cwiseAbs().maxCoeff());
         });
     if (!status.ok()) return status;
     distances.push_back(distance);
