@@ -96,9 +96,9 @@ set format y '10^{%%T}'
 set xlabel 'Time step [s]'
 set ylabel 'Largest error'
 set key top left
-stats data using 1 every ::0::0 name 'H' nooutput
+stats data using 1 name 'H' nooutput
 stats data using 3 every ::0::0 name 'E' nooutput
-set xrange [*:1.1 * H_max]
+set xrange [0.9 * H_min:1.1 * H_max]
 slope(x) = 2 * E_max * (x / H_max)**%d
 plot data using 1:3 with linespoints lt 4 title 'Attitude [rad]', \
      data using 1:2 with linespoints lt 1 title 'Angular velocity [rad/s]', \
