@@ -264,7 +264,8 @@ std::vector<Claim> VibrationClaims() {
        }});
   claims.push_back(
       {.id = "agreement/truss_attitude",
-       .sentence = "So does that of the box with a truss.",
+       .sentence = "With a truss on it as well, the attitude of the ANCF "
+                   "body approaches the conventional body's as 1/alpha.",
        .equations = "(ATT-1), (CRB-6..8)",
        .reference = Reference::kCrossFormulation,
        .metric = "p of max angle between the attitudes over 10 s = C alpha^p, "
