@@ -34,7 +34,7 @@ TEST(StagnationMonitorTest, ShrinkingNearTheFloorGoesOn) {
 
 TEST(StagnationMonitorTest, GainingLessThanABitNearTheFloorIsStagnation) {
   StagnationMonitor monitor;
-  EXPECT_FALSE(monitor.Update(1e-10, kFloor));
+  EXPECT_FALSE(monitor.Update(1e-15, kFloor));
   EXPECT_FALSE(monitor.Update(2e-16, kFloor));
   EXPECT_TRUE(monitor.Update(1.5e-16, kFloor));
 }

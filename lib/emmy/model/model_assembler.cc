@@ -501,9 +501,11 @@ absl::StatusOr<std::array<Point, 2>> ModelAssembler::MakeEnds(
   return points;
 }
 
-void ModelAssembler::AddLine(const std::string& name,
-                             const LineElement& element,
-                             const std::array<Point, 2>& ends, double mass) {
+absl::Status ModelAssembler::AddLine(const std::string& pointer,
+                                     const std::string& name,
+                                     const LineElement& element,
+                                     const std::array<Point, 2>& ends,
+                                     double mass) {
   ModelLine line{.name = name,
                  .element = element,
                  .ends = ends,
@@ -519,6 +521,11 @@ void ModelAssembler::AddLine(const std::string& name,
   }
   for (const auto& [vector, weight] : row) {
     if (weight != 0.0) line.difference.terms.push_back({vector, weight});
+  }
+  if (line.difference.terms.empty() && !ends[0].conventional_body.has_value() &&
+      !ends[1].conventional_body.has_value()) {
+    return FieldError(pointer + "/ends", "two points that can move apart",
+                      "two ends at one point or both on the ground");
   }
   line.difference.ground = ends[1].ground - ends[0].ground;
   const DoubleDouble value =
@@ -540,6 +547,7 @@ void ModelAssembler::AddLine(const std::string& name,
   state_.strain.compensation(s) = value.lo;
   AddConsistentMass(ends, mass);
   model_.lines_.push_back(std::move(line));
+  return absl::OkStatus();
 }
 
 absl::Status ModelAssembler::AddTrusses() {
@@ -571,16 +579,12 @@ absl::Status ModelAssembler::AddTrusses() {
     }
     const double length = truss.length.value_or(distance);
     const double axial_stiffness = truss.young_modulus * truss.area;
-    AddLine(truss.name,
-            truss.tension_only ? LineElement::Cable(length, axial_stiffness)
-                               : LineElement::Truss(length, axial_stiffness),
-            *ends, truss.density * truss.area * length);
-    if (model_.lines_.back().difference.terms.empty() &&
-        !(*ends)[0].conventional_body.has_value() &&
-        !(*ends)[1].conventional_body.has_value()) {
-      return FieldError(pointer + "/ends", "two points that can move apart",
-                        "two ends at one point or both on the ground");
-    }
+    status = AddLine(pointer, truss.name,
+                     truss.tension_only
+                         ? LineElement::Cable(length, axial_stiffness)
+                         : LineElement::Truss(length, axial_stiffness),
+                     *ends, truss.density * truss.area * length);
+    if (!status.ok()) return status;
   }
   return absl::OkStatus();
 }
@@ -598,14 +602,10 @@ absl::Status ModelAssembler::AddSprings() {
     if (!status.ok()) return status;
     absl::StatusOr<std::array<Point, 2>> ends = MakeEnds(pointer, spring.ends);
     if (!ends.ok()) return ends.status();
-    AddLine(spring.name, LineElement::Spring(spring.length, spring.stiffness),
-            *ends, 0.0);
-    if (model_.lines_.back().difference.terms.empty() &&
-        !(*ends)[0].conventional_body.has_value() &&
-        !(*ends)[1].conventional_body.has_value()) {
-      return FieldError(pointer + "/ends", "two points that can move apart",
-                        "two ends at one point or both on the ground");
-    }
+    status = AddLine(pointer, spring.name,
+                     LineElement::Spring(spring.length, spring.stiffness),
+                     *ends, 0.0);
+    if (!status.ok()) return status;
   }
   state_.strain.value.conservativeResize(model_.num_strains_);
   state_.strain.compensation.conservativeResize(model_.num_strains_);
