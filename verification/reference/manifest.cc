@@ -31,7 +31,7 @@ absl::StatusOr<std::vector<std::string>> DataFiles(const std::string& root) {
   for (fs::recursive_directory_iterator it(folder, error), end;
        !error && it != end; it.increment(error)) {
     if (it->path().extension() != ".json") continue;
-    paths.push_back(fs::relative(it->path(), root, error).generic_string());
+    paths.push_back(it->path().lexically_relative(root).generic_string());
   }
   if (error) {
     return absl::NotFoundError(
@@ -85,6 +85,7 @@ std::map<std::string, std::string> HashesByFile(const std::string& manifest) {
   const Json json = Json::parse(manifest, nullptr, /*allow_exceptions=*/false);
   if (!json.is_object() || !json.contains("files")) return hashes;
   for (const Json& entry : json["files"]) {
+    if (!entry.is_object()) continue;
     hashes[entry.value("file", "")] = entry.value("git_hash", "");
   }
   return hashes;
@@ -98,6 +99,7 @@ std::string GitBlobHash(std::string_view bytes) {
   sha1.process_bytes(header.c_str(), header.size() + 1);
   sha1.process_bytes(bytes.data(), bytes.size());
   boost::uuids::detail::sha1::digest_type digest;
+  static_assert(sizeof(digest) / sizeof(digest[0]) == 5, "words expected");
   sha1.get_digest(digest);
   std::string text;
   for (const unsigned word : digest) absl::StrAppendFormat(&text, "%08x", word);

@@ -88,7 +88,7 @@ TimingRun Collect(const Json& json) {
   const Json& context = json.at("context");
   run.date = context.value("date", "");
   run.processor = ProcessorText(context);
-  run.build = context.value("library_build_type", "");
+  run.program = context.value("emmy", "");
   std::vector<std::string> order;
   std::map<std::string, Samples> all;
   for (const Json& row : json.at("benchmarks")) {

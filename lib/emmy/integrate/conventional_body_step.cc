@@ -9,6 +9,13 @@
 
 namespace emmy {
 
+// (CRB-5) at W̄ and J W̄.
+Matrix3d ConventionalBodyStep::Jacobian(const Vector3d& mean,
+                                        const Vector3d& momentum) const {
+  const Matrix3d& tensor = body_.tensor();
+  return tensor + (0.5 * time_step_) * (Hat(mean) * tensor - Hat(momentum));
+}
+
 BodyStepResult ConventionalBodyStep::Solve(
     const ConventionalBodyStart& start, const Vector3d& increment_guess,
     ConventionalBodyIncrement* increment) const {
@@ -27,11 +34,14 @@ BodyStepResult ConventionalBodyStep::Solve(
     const Vector3d momentum = tensor * mean;
     const Vector3d residual =
         tensor * change + time_step_ * mean.cross(momentum);
-    const Matrix3d jacobian =
-        tensor + (0.5 * time_step_) * (Hat(mean) * tensor - Hat(momentum));
-    const Vector3d correction = jacobian.inverse() * residual;
+    // Two digits an iteration with J alone; below that Newton's method pays.
+    constexpr double kSmall = 0.01;
+    const bool small = std::abs(time_step_) * mean.norm() < kSmall;
+    const Vector3d correction =
+        small ? Vector3d(inverse_tensor_ * residual)
+              : Vector3d(Jacobian(mean, momentum).inverse() * residual);
     change -= correction;
-    result.correction = correction.cwiseAbs().maxCoeff();
+    result.correction = correction.cwiseAbs().maxCoeff<Eigen::PropagateNaN>();
     if (!std::isfinite(result.correction)) {
       result.termination = Termination::kNonFinite;
       return result;

@@ -2,12 +2,16 @@
 //
 // Unknown: ΔW, body axes. W̄ = W₀ + ½ ΔW, Θ = Δt W̄:
 //   J ΔW + Δt W̄ × J W̄ = 0                                         (CRB-4)
-// by Newton's method with the exact Jacobian
+// to round-off, with the Jacobian
 //   J + ½ Δt (Hat(W̄) J − Hat(J W̄))                                (CRB-5)
-// to round-off; then the quaternion advances by its increment (ROT-5).
+// or, where |W̄| Δt is small against one, with J alone, which gains as many
+// digits an iteration as that is small; then the quaternion advances by its
+// increment (ROT-5).
 
 #ifndef EMMY_INTEGRATE_CONVENTIONAL_BODY_STEP_H_
 #define EMMY_INTEGRATE_CONVENTIONAL_BODY_STEP_H_
+
+#include <Eigen/LU>
 
 #include "emmy/base/types.h"
 #include "emmy/element/conventional_rigid_body.h"
@@ -32,16 +36,22 @@ class ConventionalBodyStep {
  public:
   ConventionalBodyStep(const ConventionalRigidBody& body, double time_step,
                        const NewtonOptions& options)
-      : body_(body), time_step_(time_step), options_(options) {}
+      : body_(body),
+        time_step_(time_step),
+        options_(options),
+        inverse_tensor_(body.tensor().inverse()) {}
 
   BodyStepResult Solve(const ConventionalBodyStart& start,
                        const Vector3d& increment_guess,
                        ConventionalBodyIncrement* increment) const;
 
  private:
+  Matrix3d Jacobian(const Vector3d& mean, const Vector3d& momentum) const;
+
   ConventionalRigidBody body_;
   double time_step_;
   NewtonOptions options_;
+  Matrix3d inverse_tensor_;  // J⁻¹
 };
 
 }  // namespace emmy

@@ -16,8 +16,9 @@ namespace {
 
 constexpr double kUnitRoundoff = std::numeric_limits<double>::epsilon() / 2.0;
 
+// NaN if any entry is.
 double MaxAbs(const Matrix3Xd& m) {
-  return m.size() > 0 ? m.cwiseAbs().maxCoeff() : 0.0;
+  return m.size() > 0 ? m.cwiseAbs().maxCoeff<Eigen::PropagateNaN>() : 0.0;
 }
 
 }  // namespace

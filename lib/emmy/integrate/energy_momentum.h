@@ -51,7 +51,8 @@ class EnergyMomentumIntegrator {
 
   // Advances `state` by one step, of one, ten or eighteen parts. Unless the
   // report is ok, `state` is as before, whichever part failed; the message
-  // names it. No heap allocation in a step that converges. The iterations
+  // names it. No heap allocation in a step that converges, except where
+  // a structure renews a sparse factor. The iterations
   // reported are the sum over the parts, the correction is the largest.
   StepReport Step(State& state);
 

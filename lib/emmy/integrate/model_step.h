@@ -43,7 +43,7 @@ class ModelStep {
 
   // Solves for the next state; `state` is not changed. If it returns false,
   // `report` says why; its termination is not touched otherwise. No heap
-  // allocation if the step converges.
+  // allocation if the step converges, except for a sparse factor.
   bool Solve(const State& state, StepReport* report);
 
   // Advances `state` by the last solution, except its time and step number.
