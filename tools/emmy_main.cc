@@ -48,7 +48,7 @@ int Main(int argc, char** argv) {
   emmy run --help                                more on a command
 
 Exit status: 0 done; 1 a check failed or the computation could not go on;
-2 bad input or usage, nothing written.)");
+2 bad input or usage, nothing written; 3 stopped by Ctrl-C or SIGTERM.)");
   const std::vector<Command> commands = {
       AddRunCommand(app), AddCheckCommand(app), AddVerifyCommand(app),
       AddRegenerateCommand(app), AddGenerateCommand(app)};
