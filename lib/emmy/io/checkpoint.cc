@@ -15,6 +15,7 @@
 #include "emmy/base/crc64.h"
 #include "emmy/io/case_writer.h"
 #include "emmy/io/text_file.h"
+#include "emmy/model/validation.h"
 
 namespace emmy {
 namespace {
@@ -357,12 +358,12 @@ absl::Status CheckSameCase(const Checkpoint& checkpoint, const Case& value,
   if (checkpoint.case_checksum != CaseChecksum(value)) {
     return absl::InvalidArgumentError(
         checkpoint.case_name == value.name
-            ? absl::StrCat("is a checkpoint of another version of the case \"",
-                           value.name,
-                           "\": a value was changed, in the file or by --set")
-            : absl::StrCat("is a checkpoint of the case \"",
-                           checkpoint.case_name, "\", this is \"", value.name,
-                           "\""));
+            ? absl::StrCat("is a checkpoint of another version of the case ",
+                           NameText(value.name),
+                           ": a value was changed, in the file or by --set")
+            : absl::StrCat("is a checkpoint of the case ",
+                           NameText(checkpoint.case_name), ", this is ",
+                           NameText(value.name)));
   }
   if (Sizes(checkpoint.state) != Sizes(start)) {
     return absl::InvalidArgumentError(
