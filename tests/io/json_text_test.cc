@@ -141,5 +141,11 @@ TEST(PointerPartTest, EscapesSlashTildeAndControlCharacters) {
   EXPECT_EQ(PointerPart("a/b~c\n"), "/a~1b~0c\\n");
 }
 
+// Found by tools/fuzz: JSON text may hold U+007F unescaped.
+TEST(ShowJsonTest, LeavesNoControlCharacter) {
+  EXPECT_EQ(ShowJson("a\x7F\n"), "\"a\\u007f\\n\"");
+  EXPECT_EQ(PointerPart("a\x7F\n"), "/a\\u007f\\n");
+}
+
 }  // namespace
 }  // namespace emmy

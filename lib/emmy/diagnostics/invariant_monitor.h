@@ -3,6 +3,8 @@
 #ifndef EMMY_DIAGNOSTICS_INVARIANT_MONITOR_H_
 #define EMMY_DIAGNOSTICS_INVARIANT_MONITOR_H_
 
+#include <array>
+
 #include "emmy/base/types.h"
 #include "emmy/diagnostics/invariants.h"
 #include "emmy/model/model.h"
@@ -49,11 +51,23 @@ struct MomentumRecord {
   }
 };
 
+// The largest errors and scales so far of energy, momentum and angular
+// momentum: what a monitor cannot know from a single state.
+struct InvariantExtremes {
+  std::array<double, 3> max_error = {};
+  std::array<double, 3> scale = {};
+};
+
 class InvariantMonitor {
  public:
   InvariantMonitor(const Model& model, const State& initial);
 
   void Observe(const State& state);
+
+  InvariantExtremes extremes() const;
+
+  // Goes on with `state` as a monitor that had these extremes there.
+  void Resume(const State& state, const InvariantExtremes& extremes);
 
   const Invariants& latest() const { return latest_; }
   const EnergyRecord& energy() const { return energy_; }

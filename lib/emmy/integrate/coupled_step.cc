@@ -171,6 +171,14 @@ CoupledStep::Floors CoupledStep::RoundingFloors() const {
           kUnitRoundoff * std::sqrt(moment), kUnitRoundoff * std::sqrt(work)};
 }
 
+bool CoupledStep::Restore(const KeptTangent& kept) {
+  renew_ = true;
+  if (kept.matrix.size() == 0) return true;
+  if (!tangent_.Restore(kept)) return false;
+  renew_ = false;
+  return true;
+}
+
 bool CoupledStep::Renew() {
   renew_ = false;
   return tangent_.Factorize(Point());

@@ -54,6 +54,10 @@ class CoupledStep {
   // The body, line or node with the largest residual in the last iteration.
   std::string WorstPart() const;
 
+  // What is kept from step to step, and back to it; see CoupledTangent.
+  KeptTangent Keep() const { return renew_ ? KeptTangent{} : tangent_.Keep(); }
+  bool Restore(const KeptTangent& kept);
+
   int num_factorizations() const { return tangent_.num_factorizations(); }
 
  private:

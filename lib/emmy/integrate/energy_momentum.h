@@ -56,6 +56,14 @@ class EnergyMomentumIntegrator {
   // reported are the sum over the parts, the correction is the largest.
   StepReport Step(State& state);
 
+  // What is kept from step to step besides the state: factorisations of
+  // structures, one for each size of step and structure. With its state and
+  // what was kept then, another integrator of the same model and options goes
+  // on with the same bits. Restore fails with kInvalidArgument, and forgets
+  // all factorisations, if `kept` does not fit.
+  std::vector<KeptTangent> Keep() const;
+  absl::Status Restore(const std::vector<KeptTangent>& kept);
+
   const IntegratorOptions& options() const { return options_; }
 
   // Factorisations of structures so far.

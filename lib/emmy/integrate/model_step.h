@@ -49,6 +49,10 @@ class ModelStep {
   // Advances `state` by the last solution, except its time and step number.
   void Commit(State& state) const;
 
+  // What each structure's step keeps from step to step.
+  const std::vector<CoupledStep>& coupled() const { return coupled_; }
+  std::vector<CoupledStep>& coupled() { return coupled_; }
+
   // Factorisations of structures so far.
   int num_factorizations() const;
 

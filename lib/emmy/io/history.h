@@ -31,6 +31,12 @@ namespace emmy {
 // The names of the columns, without quotation marks.
 std::vector<std::string> HistoryColumns(const Model& model);
 
+// The end of a row in a history.
+struct HistoryPosition {
+  uint64_t bytes = 0;     // Length of the file up to there,
+  uint64_t checksum = 0;  // and Crc64 of that.
+};
+
 class HistoryWriter {
  public:
   // Makes or replaces the file and writes the header row. Fails with
@@ -39,11 +45,21 @@ class HistoryWriter {
   static absl::StatusOr<HistoryWriter> Create(const std::string& path,
                                               const Model& model);
 
+  // Opens the file to go on at `position`, and cuts off what is beyond it.
+  // Fails with kFailedPrecondition if the file does not begin with what the
+  // position belongs to.
+  static absl::StatusOr<HistoryWriter> Resume(const std::string& path,
+                                              const Model& model,
+                                              const HistoryPosition& position);
+
   // Appends a row. `iterations` is that of the step that led to `state`, 0 at
   // the start. Fails, leaving the rows before, if a value is not finite (its
   // column is named) or the file cannot be written; do not call again then.
   absl::Status Write(const Model& model, const State& state,
                      const Invariants& invariants, int iterations);
+
+  // Waits until all rows are on the disk; then where the next one will begin.
+  absl::StatusOr<HistoryPosition> Sync();
 
   const std::string& path() const { return path_; }
 
@@ -60,7 +76,7 @@ class HistoryWriter {
   std::string path_;
   std::unique_ptr<std::FILE, CloseFile> file_;
   std::vector<std::string> columns_;
-  uintmax_t complete_bytes_ = 0;  // Length of the file up to its last row.
+  HistoryPosition end_;  // Of the last complete row.
 };
 
 }  // namespace emmy

@@ -81,6 +81,11 @@ absl::Status ModelAssembler::AddName(const std::string& pointer,
   if (name.empty()) {
     return FieldError(pointer + "/name", "a name that is not empty", "\"\"");
   }
+  // Names head the columns of tables, and stand in messages of one line.
+  if (!IsPrintable(name)) {
+    return FieldError(pointer + "/name", "a name without control characters",
+                      NameText(name));
+  }
   const auto [place, is_new] = items_.emplace(
       name, NamedItem{.kind = kind, .index = index, .pointer = pointer});
   if (is_new) return absl::OkStatus();
@@ -169,7 +174,7 @@ absl::StatusOr<Vector3d> ModelAssembler::StartVelocity(
   const auto item = items_.find(name);
   if (item == items_.end() || item->second.kind != NamedItem::Kind::kBody) {
     return FieldError(pointer + "/velocity/moves_with",
-                      "the name of a rigid body", "\"" + name + "\"");
+                      "the name of a rigid body", NameText(name));
   }
   const size_t index = item->second.index;
   const ModelBody& body = model_.bodies_[index];
@@ -219,7 +224,7 @@ absl::StatusOr<ResolvedPoint> ModelAssembler::Resolve(
     const auto item = items_.find(node->node);
     if (item == items_.end() || item->second.kind != NamedItem::Kind::kNode) {
       return FieldError(pointer + "/node", "the name of a node",
-                        "\"" + node->node + "\"");
+                        NameText(node->node));
     }
     return ResolvedNode{item->second.index};
   }
@@ -227,7 +232,7 @@ absl::StatusOr<ResolvedPoint> ModelAssembler::Resolve(
   const auto item = items_.find(body.body);
   if (item == items_.end() || item->second.kind != NamedItem::Kind::kBody) {
     return FieldError(pointer + "/body", "the name of a rigid body",
-                      "\"" + body.body + "\"");
+                      NameText(body.body));
   }
   absl::Status status = CheckFinite(pointer + "/point", body.point, "m");
   if (!status.ok()) return status;
@@ -575,7 +580,7 @@ absl::Status ModelAssembler::AddTrusses() {
     } else if (!(distance > 0.0)) {
       return FieldError(pointer + "/ends",
                         "apart at the start, where length is not given [m]",
-                        "a distance of 0");
+                        "a distance of " + NumberText(distance));
     }
     const double length = truss.length.value_or(distance);
     const double axial_stiffness = truss.young_modulus * truss.area;
