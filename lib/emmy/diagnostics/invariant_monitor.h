@@ -3,6 +3,7 @@
 #ifndef EMMY_DIAGNOSTICS_INVARIANT_MONITOR_H_
 #define EMMY_DIAGNOSTICS_INVARIANT_MONITOR_H_
 
+#include "emmy/base/export.h"
 #include "emmy/base/types.h"
 #include "emmy/diagnostics/invariants.h"
 #include "emmy/model/model.h"
@@ -19,7 +20,7 @@ struct ConservedQuantities {
 
 // Gravity, forces and anything fixed to the ground take momentum and angular
 // momentum about the origin; a torque takes angular momentum alone.
-ConservedQuantities QuantitiesConservedBy(const Model& model);
+EMMY_EXPORT ConservedQuantities QuantitiesConservedBy(const Model& model);
 
 // Errors are against the start, differences in extended precision, over every
 // observed state. `scale` is the largest kinetic + penalty + elastic energy,
@@ -49,7 +50,7 @@ struct MomentumRecord {
   }
 };
 
-class InvariantMonitor {
+class EMMY_EXPORT InvariantMonitor {
  public:
   InvariantMonitor(const Model& model, const State& initial);
 
