@@ -21,7 +21,9 @@ string(REGEX MATCH "^[0-9]+\\.[0-9]+" _emmy_series "${PROJECT_VERSION}")
 set(CPACK_DEBIAN_LIBRARY_PACKAGE_NAME "libemmy${_emmy_series}")
 set(CPACK_DEBIAN_LIBRARY_PACKAGE_SECTION libs)
 set(CPACK_DEBIAN_LIBRARY_PACKAGE_CONTROL_EXTRA
-  "${PROJECT_SOURCE_DIR}/cmake/debian/triggers")
+  "${PROJECT_SOURCE_DIR}/cmake/debian/triggers"
+  "${PROJECT_SOURCE_DIR}/cmake/debian/postinst"
+  "${PROJECT_SOURCE_DIR}/cmake/debian/postrm")
 set(CPACK_COMPONENT_LIBRARY_DESCRIPTION
   "${PROJECT_DESCRIPTION}\nThe shared library.")
 
