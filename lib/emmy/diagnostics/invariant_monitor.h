@@ -5,6 +5,7 @@
 
 #include <array>
 
+#include "emmy/base/export.h"
 #include "emmy/base/types.h"
 #include "emmy/diagnostics/invariants.h"
 #include "emmy/model/model.h"
@@ -21,7 +22,7 @@ struct ConservedQuantities {
 
 // Gravity, forces and anything fixed to the ground take momentum and angular
 // momentum about the origin; a torque takes angular momentum alone.
-ConservedQuantities QuantitiesConservedBy(const Model& model);
+EMMY_EXPORT ConservedQuantities QuantitiesConservedBy(const Model& model);
 
 // Errors are against the start, differences in extended precision, over every
 // observed state. `scale` is the largest kinetic + penalty + elastic energy,
@@ -58,7 +59,7 @@ struct InvariantExtremes {
   std::array<double, 3> scale = {};
 };
 
-class InvariantMonitor {
+class EMMY_EXPORT InvariantMonitor {
  public:
   InvariantMonitor(const Model& model, const State& initial);
 

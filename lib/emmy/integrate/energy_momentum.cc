@@ -39,6 +39,12 @@ EnergyMomentumIntegrator::EnergyMomentumIntegrator(
       structures_(std::make_unique<const std::vector<Structure>>(
           SplitIntoStructures(model))) {}
 
+EnergyMomentumIntegrator::EnergyMomentumIntegrator(
+    EnergyMomentumIntegrator&&) noexcept = default;
+EnergyMomentumIntegrator& EnergyMomentumIntegrator::operator=(
+    EnergyMomentumIntegrator&&) noexcept = default;
+EnergyMomentumIntegrator::~EnergyMomentumIntegrator() = default;
+
 absl::Status EnergyMomentumIntegrator::MakeSteps(const Model& model) {
   const ModelStepOptions step_options{
       .newton = {.tolerance = options_.tolerance,

@@ -19,6 +19,7 @@
 
 #include "absl/status/status.h"
 #include "absl/status/statusor.h"
+#include "emmy/base/export.h"
 #include "emmy/integrate/model_step.h"
 #include "emmy/integrate/structure.h"
 #include "emmy/model/model.h"
@@ -41,13 +42,18 @@ struct IntegratorOptions {
   SymmetricFactor::Method factor_method = SymmetricFactor::Method::kAutomatic;
 };
 
-class EnergyMomentumIntegrator {
+class EMMY_EXPORT EnergyMomentumIntegrator {
  public:
   // `model` must outlive the integrator. Fails with kInvalidArgument, naming
   // the JSON pointer `/integrator/...`, if an option is out of range, and
   // with kUnimplemented if conventional and ANCF bodies are joined.
   static absl::StatusOr<EnergyMomentumIntegrator> Create(
       const Model& model, const IntegratorOptions& options);
+
+  // Here, so that whoever links to a shared library needs no other symbol.
+  EnergyMomentumIntegrator(EnergyMomentumIntegrator&&) noexcept;
+  EnergyMomentumIntegrator& operator=(EnergyMomentumIntegrator&&) noexcept;
+  ~EnergyMomentumIntegrator();
 
   // Advances `state` by one step, of one, ten or eighteen parts. Unless the
   // report is ok, `state` is as before, whichever part failed; the message

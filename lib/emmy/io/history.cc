@@ -53,7 +53,8 @@ void AddBodyValues(const BodyMotion& motion, std::vector<double>* row) {
   AddValues(motion.omega_polar_exact, row);
 }
 
-// In the order of HistoryColumns.
+}  // namespace
+
 std::vector<double> HistoryRow(const Model& model, const State& state,
                                const Invariants& invariants, int iterations) {
   std::vector<double> row = {static_cast<double>(state.step),
@@ -82,6 +83,8 @@ std::vector<double> HistoryRow(const Model& model, const State& state,
   }
   return row;
 }
+
+namespace {
 
 // As %.17g, whatever the locale.
 void AppendNumber(double value, std::string* line) {

@@ -22,6 +22,7 @@
 
 #include "absl/status/status.h"
 #include "absl/status/statusor.h"
+#include "emmy/base/export.h"
 #include "emmy/diagnostics/invariants.h"
 #include "emmy/model/model.h"
 #include "emmy/model/state.h"
@@ -29,7 +30,7 @@
 namespace emmy {
 
 // The names of the columns, without quotation marks.
-std::vector<std::string> HistoryColumns(const Model& model);
+EMMY_EXPORT std::vector<std::string> HistoryColumns(const Model& model);
 
 // The end of a row in a history.
 struct HistoryPosition {
@@ -37,7 +38,14 @@ struct HistoryPosition {
   uint64_t checksum = 0;  // and Crc64 of that.
 };
 
-class HistoryWriter {
+// A row in the order of HistoryColumns. `iterations` is that of the step that
+// led to `state`.
+EMMY_EXPORT std::vector<double> HistoryRow(const Model& model,
+                                           const State& state,
+                                           const Invariants& invariants,
+                                           int iterations);
+
+class EMMY_EXPORT HistoryWriter {
  public:
   // Makes or replaces the file and writes the header row. Fails with
   // kFailedPrecondition if it cannot be opened, kDataLoss if it cannot be
