@@ -2,17 +2,18 @@
 //
 // Unknown: ΔW, body axes. W̄ = W₀ + ½ ΔW, Θ = Δt W̄:
 //   J ΔW + Δt W̄ × J W̄ = 0                                         (CRB-4)
-// to round-off, with the Jacobian
+// by Newton's method with the exact Jacobian
 //   J + ½ Δt (Hat(W̄) J − Hat(J W̄))                                (CRB-5)
-// or, where |W̄| Δt is small against one, with J alone, which gains as many
-// digits an iteration as that is small; then the quaternion advances by its
-// increment (ROT-5).
+// to round-off; then the quaternion advances by its increment (ROT-5). J alone
+// would be cheaper, but what its linear convergence leaves has the same sign in
+// every step, and shows in the growth of round-off.
 
 #ifndef EMMY_INTEGRATE_CONVENTIONAL_BODY_STEP_H_
 #define EMMY_INTEGRATE_CONVENTIONAL_BODY_STEP_H_
 
 #include <Eigen/LU>
 
+#include "emmy/base/compensated_sum.h"
 #include "emmy/base/types.h"
 #include "emmy/element/conventional_rigid_body.h"
 #include "emmy/integrate/ancf_body_step.h"
@@ -29,7 +30,8 @@ struct ConventionalBodyStart {
 
 struct ConventionalBodyIncrement {
   Vector4d quaternion = Vector4d::Zero();
-  Vector3d angular_velocity = Vector3d::Zero();  // ΔW
+  Vector3d angular_velocity = Vector3d::Zero();  // ΔW, and what its rounding
+  Vector3d angular_velocity_low = Vector3d::Zero();  // lost of the correction.
 };
 
 class ConventionalBodyStep {
@@ -46,6 +48,8 @@ class ConventionalBodyStep {
                        ConventionalBodyIncrement* increment) const;
 
  private:
+  Vector3d ExtendedResidual(const ConventionalBodyStart& start,
+                            const Vector3d& change) const;
   Matrix3d Jacobian(const Vector3d& mean, const Vector3d& momentum) const;
 
   ConventionalRigidBody body_;
