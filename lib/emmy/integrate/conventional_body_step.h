@@ -4,9 +4,10 @@
 //   J ΔW + Δt W̄ × J W̄ = 0                                         (CRB-4)
 // by Newton's method with the exact Jacobian
 //   J + ½ Δt (Hat(W̄) J − Hat(J W̄))                                (CRB-5)
-// to round-off; then the quaternion advances by its increment (ROT-5). J alone
-// would be cheaper, but what its linear convergence leaves has the same sign in
-// every step, and shows in the growth of round-off.
+// to round-off. The residual of the accepted ΔW in double-double arithmetic
+// gives ΔW a low-order part, without which energy errors have a small mean of
+// their own and grow faster than a random walk. Then the quaternion advances by
+// its increment (ROT-5).
 
 #ifndef EMMY_INTEGRATE_CONVENTIONAL_BODY_STEP_H_
 #define EMMY_INTEGRATE_CONVENTIONAL_BODY_STEP_H_
@@ -30,8 +31,8 @@ struct ConventionalBodyStart {
 
 struct ConventionalBodyIncrement {
   Vector4d quaternion = Vector4d::Zero();
-  Vector3d angular_velocity = Vector3d::Zero();  // ΔW, and what its rounding
-  Vector3d angular_velocity_low = Vector3d::Zero();  // lost of the correction.
+  Vector3d angular_velocity = Vector3d::Zero();      // ΔW
+  Vector3d angular_velocity_low = Vector3d::Zero();  // Its low-order part.
 };
 
 class ConventionalBodyStep {
