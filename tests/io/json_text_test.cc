@@ -98,7 +98,7 @@ TEST(ParseJsonTest, ShortensALongKeyInAMessage) {
 
 TEST(ParseJsonTest, RejectsATextAboveTheSizeLimit) {
   EXPECT_EQ(ParseError(std::string(kMaxJsonBytes + 1, ' ')),
-            "larger than 64 MiB");
+            "larger than 256 MiB");
 }
 
 TEST(FormatJsonTest, KeepsOnOneLineWhatFits) {
