@@ -333,8 +333,7 @@ absl::StatusOr<ClaimResult> JointWork(const ClaimSetting& setting) {
     const absl::Status status = run->Advance(1);
     if (!status.ok()) return status;
     const Vector3d opening = (gap(run->state()) - gap(before)).ToDouble();
-    const Vector3d force =
-        run->state().multiplier.differences.row(0).head<3>().transpose();
+    const Vector3d force = run->state().multiplier.differences.col(0).head<3>();
     const double size = kUnitRoundoff * force.norm() * kStep *
                         run->state().velocity.value.cwiseAbs().maxCoeff();
     work = Larger(work, std::abs(force.dot(opening)) / size);

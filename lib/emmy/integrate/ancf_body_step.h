@@ -60,6 +60,9 @@ class AncfBodyStep {
                        const Matrix3d& rate_increment_guess,
                        AncfBodyIncrement* increment) const;
 
+  // Whether ¼ Δt² b is not far below M, so that (EM-6) is the tangent.
+  bool penalty_dominates() const { return !mass_dominates_; }
+
  private:
   struct Evaluation;
 

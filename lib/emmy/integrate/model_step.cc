@@ -88,9 +88,15 @@ ModelStep::ModelStep(
   for (const Structure& structure : structures) {
     if (structure.is_free_body()) {
       const ModelBody* body = structure.bodies.front().body;
-      free_ancf_.push_back(
-          {body, AncfBodyStep(*body->ancf(), time_step, newton, tangent),
-           AncfBodyIncrement{}});
+      FreeAncf part{body,
+                    AncfBodyStep(*body->ancf(), time_step, newton, tangent),
+                    std::nullopt,
+                    {}};
+      if (!options.always_full_newton && part.step.penalty_dominates() &&
+          AncfBodyLanes::Fits(*body->ancf())) {
+        part.lanes.emplace(*body->ancf(), time_step, newton);
+      }
+      free_ancf_.push_back(part);
     } else {
       coupled_.emplace_back(
           structure, time_step,
@@ -138,10 +144,20 @@ bool ModelStep::Solve(const State& state, StepReport* report) {
   // Names are made only on failure, for a step must not allocate.
   const std::string none;
   for (FreeAncf& part : free_ancf_) {
-    const BodyStepResult result = part.step.Solve(
-        AncfStart(*part.body, state),
-        dt * Columns(state.acceleration.next, part.body->velocity_offset + 3),
-        &part.increment);
+    BodyStepResult result;
+    if (part.lanes.has_value()) {
+      result = SolveInLanes(*part.lanes, *part.body, state, &part.increment);
+    }
+    if (result.termination != Termination::kConverged) {
+      const int iterations = result.iterations;
+      AncfBodyIncrement increment;
+      result = part.step.Solve(
+          AncfStart(*part.body, state),
+          dt * Columns(state.acceleration.next, part.body->velocity_offset + 3),
+          &increment);
+      result.iterations += iterations;
+      part.increment.Set(increment);
+    }
     const bool ok = result.termination == Termination::kConverged;
     if (!Accept(result, state,
                 ok ? none : absl::StrCat("body \"", part.body->name, "\""),
@@ -201,14 +217,7 @@ void ModelStep::CommitCentre(const ModelBody& body, State& state) const {
 void ModelStep::Commit(State& state) const {
   const double dt = time_step_;
   for (const FreeAncf& part : free_ancf_) {
-    const ModelBody& body = *part.body;
-    CommitCentre(body, state);
-    const Eigen::Map<const Vector9d> gradients(part.increment.gradients.data());
-    const Eigen::Map<const Vector9d> rates(part.increment.rates.data());
-    state.position.Add(body.position_offset + 3, gradients);
-    state.velocity.Add(body.velocity_offset + 3, rates);
-    state.strain.Add(body.strain_offset, part.increment.strain);
-    Predict(body.velocity_offset + 3, rates / dt, state);
+    CommitInLanes(part.increment, dt, model_->gravity(), *part.body, state);
   }
   for (const FreeConventional& part : free_conventional_) {
     const ModelBody& body = *part.body;

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "absl/status/statusor.h"
+#include "emmy/integrate/ancf_body_lanes.h"
 #include "emmy/integrate/ancf_body_step.h"
 #include "emmy/integrate/conventional_body_step.h"
 #include "emmy/integrate/conventional_structure_step.h"
@@ -64,7 +65,12 @@ class ModelStep {
     StepType step;
     IncrementType increment;
   };
-  using FreeAncf = FreePart<AncfBodyStep, AncfBodyIncrement>;
+  struct FreeAncf {
+    const ModelBody* body;
+    AncfBodyStep step;
+    std::optional<AncfBodyLanes> lanes;  // Tried first, where it fits.
+    AncfLanesIncrement increment;
+  };
   using FreeConventional =
       FreePart<ConventionalBodyStep, ConventionalBodyIncrement>;
 

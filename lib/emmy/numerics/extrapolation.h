@@ -29,11 +29,11 @@ struct Extrapolation {
   using Errors = std::array<double, kOrders>;
 
   VectorXd next;         // Prediction, one entry a sequence.
-  MatrixXd differences;  // ∇⁰ … ∇³ of the last value, a column a sequence.
+  MatrixXd differences;  // ∇⁰ … ∇³ of the last value, a column an order.
 
   void SetZero(Eigen::Index size) {
     next.setZero(size);
-    differences.setZero(kOrders, size);
+    differences.setZero(size, kOrders);
   }
 
   // Takes new values of the sequences from `offset` on; `errors` grows to
@@ -44,7 +44,7 @@ struct Extrapolation {
     for (Eigen::Index i = 0; i < values.size(); ++i) {
       double difference = values(i);
       for (int j = 0; j < kOrders; ++j) {
-        double& kept = differences(j, offset + i);
+        double& kept = differences(offset + i, j);
         const double change = difference - kept;
         kept = difference;
         difference = change;
@@ -64,7 +64,7 @@ struct Extrapolation {
   void Predict(Eigen::Index offset, Eigen::Index size, int order) {
     for (Eigen::Index i = offset; i < offset + size; ++i) {
       double sum = 0.0;
-      for (int j = order; j >= 0; --j) sum += differences(j, i);
+      for (int j = order; j >= 0; --j) sum += differences(i, j);
       next(i) = sum;
     }
   }

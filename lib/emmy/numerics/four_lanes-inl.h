@@ -1,0 +1,231 @@
+// Four doubles side by side, for code that is compiled once for each
+// instruction set (Highway's foreach_target.h): one vector where it has 256
+// bits or more, else two of two, or plain numbers.
+//
+// The first lane stands apart: Next and Previous turn the last three,
+//   Next (a, 1, 2, 3) = (a, 2, 3, 1),  Previous (a, 1, 2, 3) = (a, 3, 1, 2),
+// so that a sum over the cyclic pairs of three vectors is one of lanes.
+// SelectLast takes the last lane from its second argument, LoadFromSecond puts
+// three numbers into the last three lanes (and reads a fourth), LoadInterleaved
+// reads x₀ y₀ z₀ x₁ … z₃.
+//
+// No operation is fused with another: the bits are those of plain arithmetic.
+
+// Not a guard for the whole file: it is read again for each instruction set.
+#if defined(EMMY_NUMERICS_FOUR_LANES_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef EMMY_NUMERICS_FOUR_LANES_INL_H_
+#undef EMMY_NUMERICS_FOUR_LANES_INL_H_
+#else
+#define EMMY_NUMERICS_FOUR_LANES_INL_H_
+#endif
+
+#include <cmath>
+#include <cstdint>
+
+#include "hwy/highway.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace emmy {
+namespace HWY_NAMESPACE {
+
+#if HWY_TARGET == HWY_SCALAR
+
+struct Lanes {
+  double v[4];
+
+  static Lanes Set(double x) { return {{x, x, x, x}}; }
+  static Lanes First(double x) { return {{x, 0.0, 0.0, 0.0}}; }
+  static Lanes Load(const double* p) { return {{p[0], p[1], p[2], p[3]}}; }
+  void Store(double* p) const {
+    for (int i = 0; i < 4; ++i) p[i] = v[i];
+  }
+};
+
+template <typename Operation>
+Lanes Each(const Lanes& a, const Lanes& b, Operation operation) {
+  Lanes result;
+  for (int i = 0; i < 4; ++i) result.v[i] = operation(a.v[i], b.v[i]);
+  return result;
+}
+
+inline Lanes operator+(const Lanes& a, const Lanes& b) {
+  return Each(a, b, [](double x, double y) { return x + y; });
+}
+inline Lanes operator-(const Lanes& a, const Lanes& b) {
+  return Each(a, b, [](double x, double y) { return x - y; });
+}
+inline Lanes operator*(const Lanes& a, const Lanes& b) {
+  return Each(a, b, [](double x, double y) { return x * y; });
+}
+inline Lanes operator/(const Lanes& a, const Lanes& b) {
+  return Each(a, b, [](double x, double y) { return x / y; });
+}
+inline Lanes Max(const Lanes& a, const Lanes& b) {
+  return Each(a, b, [](double x, double y) { return x > y ? x : y; });
+}
+inline Lanes Abs(const Lanes& a) {
+  return Each(a, a, [](double x, double) { return std::abs(x); });
+}
+inline Lanes Next(const Lanes& a) { return {{a.v[0], a.v[2], a.v[3], a.v[1]}}; }
+inline Lanes Previous(const Lanes& a) {
+  return {{a.v[0], a.v[3], a.v[1], a.v[2]}};
+}
+inline Lanes SelectLast(const Lanes& others, const Lanes& last) {
+  return {{others.v[0], others.v[1], others.v[2], last.v[3]}};
+}
+inline Lanes LoadFromSecond(const double* p) {
+  return {{p[3], p[0], p[1], p[2]}};
+}
+inline void LoadInterleaved(const double* p, Lanes* x, Lanes* y, Lanes* z) {
+  for (int i = 0; i < 4; ++i) {
+    x->v[i] = p[3 * i];
+    y->v[i] = p[3 * i + 1];
+    z->v[i] = p[3 * i + 2];
+  }
+}
+inline void StoreInterleaved(const Lanes& x, const Lanes& y, const Lanes& z,
+                             double* p) {
+  for (int i = 0; i < 4; ++i) {
+    p[3 * i] = x.v[i];
+    p[3 * i + 1] = y.v[i];
+    p[3 * i + 2] = z.v[i];
+  }
+}
+
+#elif HWY_MAX_BYTES >= 32
+
+namespace hn = hwy::HWY_NAMESPACE;
+using FourTag = hn::FixedTag<double, 4>;
+
+struct Lanes {
+  hn::Vec<FourTag> v;
+
+  static HWY_INLINE Lanes Set(double x) { return {hn::Set(FourTag(), x)}; }
+  static HWY_INLINE Lanes First(double x) {
+    return {hn::InsertLane(hn::Zero(FourTag()), 0, x)};
+  }
+  static HWY_INLINE Lanes Load(const double* p) {
+    return {hn::LoadU(FourTag(), p)};
+  }
+  HWY_INLINE void Store(double* p) const { hn::StoreU(v, FourTag(), p); }
+};
+
+// Lane i of the result is lane `from`[i].
+HWY_INLINE Lanes Permuted(const Lanes& a, const int64_t* from) {
+  return {hn::TableLookupLanes(a.v, hn::SetTableIndices(FourTag(), from))};
+}
+
+HWY_INLINE Lanes operator+(const Lanes& a, const Lanes& b) {
+  return {hn::Add(a.v, b.v)};
+}
+HWY_INLINE Lanes operator-(const Lanes& a, const Lanes& b) {
+  return {hn::Sub(a.v, b.v)};
+}
+HWY_INLINE Lanes operator*(const Lanes& a, const Lanes& b) {
+  return {hn::Mul(a.v, b.v)};
+}
+HWY_INLINE Lanes operator/(const Lanes& a, const Lanes& b) {
+  return {hn::Div(a.v, b.v)};
+}
+HWY_INLINE Lanes Max(const Lanes& a, const Lanes& b) {
+  return {hn::Max(a.v, b.v)};
+}
+HWY_INLINE Lanes Abs(const Lanes& a) { return {hn::Abs(a.v)}; }
+HWY_INLINE Lanes Next(const Lanes& a) {
+  static constexpr int64_t kFrom[4] = {0, 2, 3, 1};
+  return Permuted(a, kFrom);
+}
+HWY_INLINE Lanes Previous(const Lanes& a) {
+  static constexpr int64_t kFrom[4] = {0, 3, 1, 2};
+  return Permuted(a, kFrom);
+}
+HWY_INLINE Lanes SelectLast(const Lanes& others, const Lanes& last) {
+  return {hn::IfThenElse(hn::FirstN(FourTag(), 3), others.v, last.v)};
+}
+HWY_INLINE Lanes LoadFromSecond(const double* p) {
+  static constexpr int64_t kFrom[4] = {3, 0, 1, 2};
+  return Permuted(Lanes::Load(p), kFrom);
+}
+HWY_INLINE void LoadInterleaved(const double* p, Lanes* x, Lanes* y, Lanes* z) {
+  hn::LoadInterleaved3(FourTag(), p, x->v, y->v, z->v);
+}
+HWY_INLINE void StoreInterleaved(const Lanes& x, const Lanes& y, const Lanes& z,
+                                 double* p) {
+  hn::StoreInterleaved3(x.v, y.v, z.v, FourTag(), p);
+}
+
+#else
+
+namespace hn = hwy::HWY_NAMESPACE;
+using TwoTag = hn::FixedTag<double, 2>;
+
+struct Lanes {
+  hn::Vec<TwoTag> low, high;
+
+  static HWY_INLINE Lanes Set(double x) {
+    return {hn::Set(TwoTag(), x), hn::Set(TwoTag(), x)};
+  }
+  static HWY_INLINE Lanes First(double x) {
+    return {hn::InsertLane(hn::Zero(TwoTag()), 0, x), hn::Zero(TwoTag())};
+  }
+  static HWY_INLINE Lanes Load(const double* p) {
+    return {hn::LoadU(TwoTag(), p), hn::LoadU(TwoTag(), p + 2)};
+  }
+  HWY_INLINE void Store(double* p) const {
+    hn::StoreU(low, TwoTag(), p);
+    hn::StoreU(high, TwoTag(), p + 2);
+  }
+};
+
+HWY_INLINE Lanes operator+(const Lanes& a, const Lanes& b) {
+  return {hn::Add(a.low, b.low), hn::Add(a.high, b.high)};
+}
+HWY_INLINE Lanes operator-(const Lanes& a, const Lanes& b) {
+  return {hn::Sub(a.low, b.low), hn::Sub(a.high, b.high)};
+}
+HWY_INLINE Lanes operator*(const Lanes& a, const Lanes& b) {
+  return {hn::Mul(a.low, b.low), hn::Mul(a.high, b.high)};
+}
+HWY_INLINE Lanes operator/(const Lanes& a, const Lanes& b) {
+  return {hn::Div(a.low, b.low), hn::Div(a.high, b.high)};
+}
+HWY_INLINE Lanes Max(const Lanes& a, const Lanes& b) {
+  return {hn::Max(a.low, b.low), hn::Max(a.high, b.high)};
+}
+HWY_INLINE Lanes Abs(const Lanes& a) {
+  return {hn::Abs(a.low), hn::Abs(a.high)};
+}
+HWY_INLINE Lanes Next(const Lanes& a) {
+  return {hn::InterleaveLower(TwoTag(), a.low, a.high),
+          hn::InterleaveUpper(TwoTag(), a.high, a.low)};
+}
+HWY_INLINE Lanes Previous(const Lanes& a) {
+  return {hn::ConcatUpperLower(TwoTag(), a.high, a.low),
+          hn::CombineShiftRightBytes<8>(TwoTag(), a.high, a.low)};
+}
+HWY_INLINE Lanes SelectLast(const Lanes& others, const Lanes& last) {
+  return {others.low,
+          hn::IfThenElse(hn::FirstN(TwoTag(), 1), others.high, last.high)};
+}
+HWY_INLINE Lanes LoadFromSecond(const double* p) {
+  const Lanes a = Lanes::Load(p);
+  return {hn::CombineShiftRightBytes<8>(TwoTag(), a.low, a.high),
+          hn::CombineShiftRightBytes<8>(TwoTag(), a.high, a.low)};
+}
+HWY_INLINE void LoadInterleaved(const double* p, Lanes* x, Lanes* y, Lanes* z) {
+  hn::LoadInterleaved3(TwoTag(), p, x->low, y->low, z->low);
+  hn::LoadInterleaved3(TwoTag(), p + 6, x->high, y->high, z->high);
+}
+HWY_INLINE void StoreInterleaved(const Lanes& x, const Lanes& y, const Lanes& z,
+                                 double* p) {
+  hn::StoreInterleaved3(x.low, y.low, z.low, TwoTag(), p);
+  hn::StoreInterleaved3(x.high, y.high, z.high, TwoTag(), p + 6);
+}
+
+#endif
+
+}  // namespace HWY_NAMESPACE
+}  // namespace emmy
+HWY_AFTER_NAMESPACE();
+
+#endif  // EMMY_NUMERICS_FOUR_LANES_INL_H_
