@@ -66,6 +66,8 @@ const std::vector<Tooth>& Teeth() {
       {"conservation/conventional_body", "PlainArithmetic", plain},
       {"conservation/conventional_body", "BiasedRounding",
        BiasedRounding(1e-18)},
+      {"conservation/conventional_energy", "BiasedRounding",
+       BiasedRounding(1e-22)},
       {"conservation/penalty_independence", "StrainKick", StrainKick(1e-6)},
       {"growth/ancf_body", "BiasedRounding", BiasedRounding(1e-20)},
       {"growth/conventional_body", "BiasedRounding", BiasedRounding(1e-20)},

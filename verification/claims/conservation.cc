@@ -172,6 +172,28 @@ std::vector<Claim> ConservationClaims() {
                           false);
        }});
   claims.push_back(
+      {.id = "conservation/conventional_energy",
+       .sentence =
+           "The conventional body's energy is kept beyond a double: its "
+           "angular velocity is advanced as a pair of them.",
+       .equations = "(CRB-4), (CRBL-1), (CRBL-2), (SUM-2)",
+       .reference = Reference::kExact,
+       .metric = "largest relative error, every step",
+       .unit = "-",
+       .bound = {.upper = 3e-19,
+                 .derivation =
+                     "a step may leave 2^-20 u of its increment, of |W| dt = "
+                     "1e-3 of the velocity, twice that of the energy: 2.1e-25; "
+                     "a million of one sign, 2.1e-19. The rounding of pairs, "
+                     "some 2^-104 a step, is far below"},
+       .measure =
+           [](const ClaimSetting& setting) -> absl::StatusOr<ClaimResult> {
+         absl::StatusOr<ClaimResult> result = AllErrors(
+             setting, {{"conventional", PaperBoxConventional()}}, false);
+         if (result.ok()) result->values.resize(1);  // Energy.
+         return result;
+       }});
+  claims.push_back(
       {.id = "conservation/moving_body",
        .sentence = "A turned body in flight away from the origin keeps energy, "
                    "momentum and angular momentum about the origin, in both "

@@ -14,6 +14,8 @@
   (HWY_SVE | HWY_SVE2 | HWY_SVE_256 | HWY_SVE2_128 | HWY_RVV)
 #include "hwy/foreach_target.h"  // IWYU pragma: keep
 //
+#include "emmy/integrate/body_lanes-inl.h"
+#include "emmy/numerics/compensated_lanes-inl.h"
 #include "emmy/numerics/four_lanes-inl.h"
 #include "hwy/highway.h"
 
@@ -56,48 +58,6 @@ HWY_INLINE Vectors LoadVectors(const double* p) {
   Vectors v;
   LoadInterleaved(p, &v.x, &v.y, &v.z);
   return v;
-}
-
-// The largest number of all lanes.
-HWY_INLINE double Largest(const Lanes& a) {
-  alignas(32) double lanes[4];
-  a.Store(lanes);
-  return std::max(std::max(lanes[0], lanes[1]), std::max(lanes[2], lanes[3]));
-}
-
-// Of the last three lanes, the first being the centre's.
-HWY_INLINE double LargestOfBody(const Lanes& a) {
-  alignas(32) double lanes[4];
-  a.Store(lanes);
-  return std::max(std::max(lanes[1], lanes[2]), lanes[3]);
-}
-
-// A number and what it lacks, in every lane.
-struct LanesSum {
-  Lanes value, error;
-};
-
-// (SUM-1)
-HWY_INLINE LanesSum TwoSum(const Lanes& a, const Lanes& b) {
-  const Lanes sum = a + b;
-  const Lanes b_part = sum - a;
-  const Lanes a_part = sum - b_part;
-  return {sum, (a - a_part) + (b - b_part)};
-}
-
-// (SUM-3)
-HWY_INLINE LanesSum TwoProduct(const Lanes& a, const Lanes& b) {
-  const Lanes split = Lanes::Set(134217729.0);  // 2^27 + 1.
-  const Lanes product = a * b;
-  const Lanes a_scaled = split * a;
-  const Lanes a_high = a_scaled - (a_scaled - a);
-  const Lanes a_low = a - a_high;
-  const Lanes b_scaled = split * b;
-  const Lanes b_high = b_scaled - (b_scaled - b);
-  const Lanes b_low = b - b_high;
-  return {product,
-          ((a_high * b_high - product) + a_high * b_low + a_low * b_high) +
-              a_low * b_low};
 }
 
 // A step is one long chain of operations that wait for each other. What the
@@ -223,32 +183,6 @@ BodyStepResult Solve(const AncfBodyLanes& body, const double* position,
   return result;
 }
 
-// (SUM-2) for four numbers.
-HWY_INLINE void AddTo(const Lanes& increment, double* value,
-                      double* compensation) {
-  const LanesSum sum =
-      TwoSum(Lanes::Load(value), increment + Lanes::Load(compensation));
-  sum.value.Store(value);
-  sum.error.Store(compensation);
-}
-
-// The last number is the first of e₁; the three before it are the centre's,
-// which `velocity` moves for a step. With the product's rounding error: a free
-// body's velocity is the same in every step, and so would be that of the
-// product, which then drifts.
-HWY_INLINE void MoveCentre(const Lanes& increment, const Lanes& velocity,
-                           const Lanes& step, double* value,
-                           double* compensation) {
-  const LanesSum product = TwoProduct(step, velocity);
-  const LanesSum first =
-      TwoSum(Lanes::Load(value), SelectLast(product.value, increment));
-  const LanesSum second = TwoSum(
-      first.value, first.error + (Lanes::Load(compensation) +
-                                  SelectLast(product.error, Lanes::Set(0.0))));
-  second.value.Store(value);
-  second.error.Store(compensation);
-}
-
 void Commit(const AncfLanesIncrement& increment, double time_step,
             const double* velocity_increment, double* position,
             double* position_compensation, double* velocity,
@@ -256,7 +190,6 @@ void Commit(const AncfLanesIncrement& increment, double time_step,
             double* strain_compensation, double* next,
             double* const* differences) {
   const Lanes step = Lanes::Set(time_step);
-  const Lanes none = Lanes::Set(0.0);
   // The centre's, in the lanes before the first of e₁.
   const Lanes centre = Lanes::Load(velocity_increment);
   const Lanes mean_velocity =
@@ -284,29 +217,13 @@ void Commit(const AncfLanesIncrement& increment, double time_step,
   high.value.Store(strain + 2);
   high.error.Store(strain_compensation + 2);
 
-  // Extrapolation::Add and Predict, the centre's numbers left at zero.
-  Lanes errors[Extrapolation::kOrders] = {none, none, none, none};
-  const Lanes per_step = Lanes::Set(1.0 / time_step);
-  for (int i = 0; i < 12; i += 4) {
-    Lanes difference = per_step * Lanes::Load(increment.rates + i);
-    if (i == 0) difference = SelectLast(none, difference);
-    for (int j = 0; j < Extrapolation::kOrders; ++j) {
-      const Lanes change = difference - Lanes::Load(differences[j] + i);
-      difference.Store(differences[j] + i);
-      difference = change;
-      errors[j] = Max(errors[j], Abs(change));
-    }
+  Lanes accelerations[3];
+  for (int i = 0; i < 3; ++i) {
+    accelerations[i] =
+        Lanes::Set(1.0 / time_step) * Lanes::Load(increment.rates + 4 * i);
   }
-  Extrapolation::Errors largest;
-  for (size_t j = 0; j < largest.size(); ++j) largest[j] = Largest(errors[j]);
-  const int order = Extrapolation::BestOrder(largest);
-  for (int i = 0; i < 12; i += 4) {
-    Lanes sum = Lanes::Load(differences[order] + i);
-    for (int j = order - 1; j >= 0; --j) {
-      sum = sum + Lanes::Load(differences[j] + i);
-    }
-    sum.Store(next + i);
-  }
+  accelerations[0] = SelectLast(Lanes::Set(0.0), accelerations[0]);
+  Extrapolate(accelerations, differences, next);
 }
 
 }  // namespace HWY_NAMESPACE

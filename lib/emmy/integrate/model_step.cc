@@ -5,9 +5,9 @@
 #include <string>
 #include <utility>
 
+#include "absl/base/attributes.h"
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_format.h"
-#include "emmy/base/double_double.h"
 
 namespace emmy {
 namespace {
@@ -39,14 +39,28 @@ ConventionalBodyStart ConventionalStart(const ModelBody& body,
               state.velocity.compensation.segment<3>(w)};
 }
 
-// The start of the next iteration from the acceleration of this step.
-template <typename Derived>
-void Predict(Eigen::Index offset, const Eigen::MatrixBase<Derived>& latest,
-             State& state) {
-  Extrapolation::Errors errors{};
-  state.acceleration.Add(offset, latest, &errors);
-  state.acceleration.Predict(offset, latest.size(),
-                             Extrapolation::BestOrder(errors));
+ABSL_ATTRIBUTE_NOINLINE BodyStepResult SolveInGeneral(
+    const AncfBodyStep& step, const ModelBody& body, const State& state,
+    double time_step, AncfLanesIncrement* increment) {
+  AncfBodyIncrement general;
+  const BodyStepResult result = step.Solve(
+      AncfStart(body, state),
+      time_step * Columns(state.acceleration.next, body.velocity_offset + 3),
+      &general);
+  increment->Set(general);
+  return result;
+}
+
+ABSL_ATTRIBUTE_NOINLINE BodyStepResult SolveInGeneral(
+    const ConventionalBodyStep& step, const ModelBody& body, const State& state,
+    double time_step, ConventionalLanesIncrement* increment) {
+  ConventionalBodyIncrement general;
+  const BodyStepResult result = step.Solve(
+      ConventionalStart(body, state),
+      time_step * state.acceleration.next.segment<3>(body.velocity_offset + 3),
+      &general);
+  increment->Set(general);
+  return result;
 }
 
 const char* Reason(Termination termination) {
@@ -112,9 +126,16 @@ ModelStep::ModelStep(
         conventional_structure_->Contains(i)) {
       continue;
     }
-    free_conventional_.push_back(
-        {&body, ConventionalBodyStep(*body.conventional(), time_step, newton),
-         ConventionalBodyIncrement{}});
+    FreeConventional part{
+        &body,
+        ConventionalBodyStep(*body.conventional(), time_step, newton),
+        std::nullopt,
+        {}};
+    if (!options.always_full_newton &&
+        ConventionalBodyLanes::Fits(*body.conventional())) {
+      part.lanes.emplace(*body.conventional(), time_step, newton);
+    }
+    free_conventional_.push_back(part);
   }
 }
 
@@ -124,8 +145,10 @@ int ModelStep::num_factorizations() const {
   return sum;
 }
 
+// Names are made only on failure, for a step must not allocate.
+template <typename Name>
 bool ModelStep::Accept(const BodyStepResult& result, const State& state,
-                       const std::string& part, StepReport* report) const {
+                       const Name& name, StepReport* report) const {
   report->iterations = std::max(report->iterations, result.iterations);
   report->correction = std::max(report->correction, result.correction);
   if (result.termination == Termination::kConverged) return true;
@@ -134,84 +157,48 @@ bool ModelStep::Accept(const BodyStepResult& result, const State& state,
       "step %d at t = %.17g s: %s, worst at %s (time step %g s, %d "
       "iterations, last correction %.3g); the state is that of the last good "
       "step; a smaller time step may help",
-      state.step + 1, state.time.value, Reason(result.termination), part,
+      state.step + 1, state.time.value, Reason(result.termination), name(),
       time_step_, result.iterations, result.correction);
   return false;
 }
 
+template <typename Part>
+bool ModelStep::SolveFree(const State& state, Part& part,
+                          StepReport* report) const {
+  BodyStepResult result;
+  if (part.lanes.has_value()) {
+    result = SolveInLanes(*part.lanes, *part.body, state, &part.increment);
+  }
+  if (result.termination != Termination::kConverged) {
+    const int iterations = result.iterations;
+    result = SolveInGeneral(part.step, *part.body, state, time_step_,
+                            &part.increment);
+    result.iterations += iterations;
+  }
+  const auto name = [&part] {
+    return absl::StrCat("body \"", part.body->name, "\"");
+  };
+  return Accept(result, state, name, report);
+}
+
 bool ModelStep::Solve(const State& state, StepReport* report) {
-  const double dt = time_step_;
-  // Names are made only on failure, for a step must not allocate.
-  const std::string none;
   for (FreeAncf& part : free_ancf_) {
-    BodyStepResult result;
-    if (part.lanes.has_value()) {
-      result = SolveInLanes(*part.lanes, *part.body, state, &part.increment);
-    }
-    if (result.termination != Termination::kConverged) {
-      const int iterations = result.iterations;
-      AncfBodyIncrement increment;
-      result = part.step.Solve(
-          AncfStart(*part.body, state),
-          dt * Columns(state.acceleration.next, part.body->velocity_offset + 3),
-          &increment);
-      result.iterations += iterations;
-      part.increment.Set(increment);
-    }
-    const bool ok = result.termination == Termination::kConverged;
-    if (!Accept(result, state,
-                ok ? none : absl::StrCat("body \"", part.body->name, "\""),
-                report)) {
-      return false;
-    }
+    if (!SolveFree(state, part, report)) return false;
   }
   for (FreeConventional& part : free_conventional_) {
-    const BodyStepResult result = part.step.Solve(
-        ConventionalStart(*part.body, state),
-        dt * state.acceleration.next.segment<3>(part.body->velocity_offset + 3),
-        &part.increment);
-    const bool ok = result.termination == Termination::kConverged;
-    if (!Accept(result, state,
-                ok ? none : absl::StrCat("body \"", part.body->name, "\""),
-                report)) {
-      return false;
-    }
+    if (!SolveFree(state, part, report)) return false;
   }
   for (CoupledStep& part : coupled_) {
     const BodyStepResult result = part.Solve(state);
-    const bool ok = result.termination == Termination::kConverged;
-    if (!Accept(result, state, ok ? none : part.WorstPart(), report)) {
-      return false;
-    }
+    const auto name = [&part] { return part.WorstPart(); };
+    if (!Accept(result, state, name, report)) return false;
   }
   if (conventional_structure_.has_value()) {
     const BodyStepResult result = conventional_structure_->Solve(state);
-    const bool ok = result.termination == Termination::kConverged;
-    if (!Accept(result, state, ok ? none : "a conventional body's structure",
-                report)) {
-      return false;
-    }
+    const auto name = [] { return "a conventional body's structure"; };
+    if (!Accept(result, state, name, report)) return false;
   }
   return true;
-}
-
-// A constant force moves the centre of mass alone: solved in closed form.
-void ModelStep::CommitCentre(const ModelBody& body, State& state) const {
-  const double dt = time_step_;
-  const Eigen::Index w = body.velocity_offset;
-  const Vector3d velocity_increment = dt * model_->gravity();
-  const Vector3d mean_velocity =
-      state.velocity.value.segment<3>(w) +
-      (state.velocity.compensation.segment<3>(w) + 0.5 * velocity_increment);
-  // With its rounding error: a free body's velocity is the same in every step,
-  // and so would be the rounding of the product, which then drifts.
-  for (int i = 0; i < 3; ++i) {
-    const SumAndError product = TwoProduct(dt, mean_velocity(i));
-    AddCompensated(product.sum, product.error,
-                   state.position.value(body.position_offset + i),
-                   state.position.compensation(body.position_offset + i));
-  }
-  state.velocity.Add(w, velocity_increment);
 }
 
 void ModelStep::Commit(State& state) const {
@@ -220,17 +207,7 @@ void ModelStep::Commit(State& state) const {
     CommitInLanes(part.increment, dt, model_->gravity(), *part.body, state);
   }
   for (const FreeConventional& part : free_conventional_) {
-    const ModelBody& body = *part.body;
-    CommitCentre(body, state);
-    state.position.Add(body.position_offset + 3, part.increment.quaternion);
-    for (int i = 0; i < 3; ++i) {
-      const Eigen::Index w = body.velocity_offset + 3 + i;
-      AddCompensated(part.increment.angular_velocity(i),
-                     part.increment.angular_velocity_low(i),
-                     state.velocity.value(w), state.velocity.compensation(w));
-    }
-    Predict(body.velocity_offset + 3, part.increment.angular_velocity / dt,
-            state);
+    CommitInLanes(part.increment, dt, model_->gravity(), *part.body, state);
   }
   for (const CoupledStep& part : coupled_) part.Commit(state);
   if (conventional_structure_.has_value()) {

@@ -15,6 +15,7 @@
 #include "absl/status/statusor.h"
 #include "emmy/integrate/ancf_body_lanes.h"
 #include "emmy/integrate/ancf_body_step.h"
+#include "emmy/integrate/conventional_body_lanes.h"
 #include "emmy/integrate/conventional_body_step.h"
 #include "emmy/integrate/conventional_structure_step.h"
 #include "emmy/integrate/coupled_step.h"
@@ -59,28 +60,26 @@ class ModelStep {
 
  private:
   // A rigid body to which nothing is attached.
-  template <typename StepType, typename IncrementType>
+  template <typename StepType, typename LanesType, typename IncrementType>
   struct FreePart {
     const ModelBody* body;
     StepType step;
+    std::optional<LanesType> lanes;  // Tried first, where it fits.
     IncrementType increment;
   };
-  struct FreeAncf {
-    const ModelBody* body;
-    AncfBodyStep step;
-    std::optional<AncfBodyLanes> lanes;  // Tried first, where it fits.
-    AncfLanesIncrement increment;
-  };
-  using FreeConventional =
-      FreePart<ConventionalBodyStep, ConventionalBodyIncrement>;
+  using FreeAncf = FreePart<AncfBodyStep, AncfBodyLanes, AncfLanesIncrement>;
+  using FreeConventional = FreePart<ConventionalBodyStep, ConventionalBodyLanes,
+                                    ConventionalLanesIncrement>;
 
   ModelStep(const Model& model, const std::vector<Structure>& structures,
             double time_step, const ModelStepOptions& options,
             std::optional<ConventionalStructureStep> conventional_structure);
 
+  template <typename Name>
   bool Accept(const BodyStepResult& result, const State& state,
-              const std::string& part, StepReport* report) const;
-  void CommitCentre(const ModelBody& body, State& state) const;
+              const Name& name, StepReport* report) const;
+  template <typename Part>
+  bool SolveFree(const State& state, Part& part, StepReport* report) const;
 
   const Model* model_;
   double time_step_;

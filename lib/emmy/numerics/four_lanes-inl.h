@@ -5,6 +5,8 @@
 // The first lane stands apart: Next and Previous turn the last three,
 //   Next (a, 1, 2, 3) = (a, 2, 3, 1),  Previous (a, 1, 2, 3) = (a, 3, 1, 2),
 // so that a sum over the cyclic pairs of three vectors is one of lanes.
+// SwapInPairs gives (1, 0, 3, 2), SwapPairs (2, 3, 0, 1).
+// WithoutFirst puts zero into the first lane,
 // SelectLast takes the last lane from its second argument, LoadFromSecond puts
 // three numbers into the last three lanes (and reads a fourth), LoadInterleaved
 // reads x₀ y₀ z₀ x₁ … z₃.
@@ -35,6 +37,9 @@ struct Lanes {
 
   static Lanes Set(double x) { return {{x, x, x, x}}; }
   static Lanes First(double x) { return {{x, 0.0, 0.0, 0.0}}; }
+  static Lanes Signs(double a, double b, double c, double d) {
+    return {{a, b, c, d}};
+  }
   static Lanes Load(const double* p) { return {{p[0], p[1], p[2], p[3]}}; }
   void Store(double* p) const {
     for (int i = 0; i < 4; ++i) p[i] = v[i];
@@ -70,6 +75,15 @@ inline Lanes Next(const Lanes& a) { return {{a.v[0], a.v[2], a.v[3], a.v[1]}}; }
 inline Lanes Previous(const Lanes& a) {
   return {{a.v[0], a.v[3], a.v[1], a.v[2]}};
 }
+inline Lanes SwapInPairs(const Lanes& a) {
+  return {{a.v[1], a.v[0], a.v[3], a.v[2]}};
+}
+inline Lanes SwapPairs(const Lanes& a) {
+  return {{a.v[2], a.v[3], a.v[0], a.v[1]}};
+}
+inline Lanes WithoutFirst(const Lanes& a) {
+  return {{0.0, a.v[1], a.v[2], a.v[3]}};
+}
 inline Lanes SelectLast(const Lanes& others, const Lanes& last) {
   return {{others.v[0], others.v[1], others.v[2], last.v[3]}};
 }
@@ -103,6 +117,10 @@ struct Lanes {
   static HWY_INLINE Lanes Set(double x) { return {hn::Set(FourTag(), x)}; }
   static HWY_INLINE Lanes First(double x) {
     return {hn::InsertLane(hn::Zero(FourTag()), 0, x)};
+  }
+  static HWY_INLINE Lanes Signs(double a, double b, double c, double d) {
+    const double signs[4] = {a, b, c, d};
+    return Load(signs);
   }
   static HWY_INLINE Lanes Load(const double* p) {
     return {hn::LoadU(FourTag(), p)};
@@ -139,6 +157,19 @@ HWY_INLINE Lanes Previous(const Lanes& a) {
   static constexpr int64_t kFrom[4] = {0, 3, 1, 2};
   return Permuted(a, kFrom);
 }
+HWY_INLINE Lanes SwapInPairs(const Lanes& a) {
+  return {hn::Reverse2(FourTag(), a.v)};
+}
+HWY_INLINE Lanes SwapPairs(const Lanes& a) {
+  return {hn::ConcatLowerUpper(FourTag(), a.v, a.v)};
+}
+// a b − c, rounded once: only where the machine has it.
+HWY_INLINE Lanes MulSub(const Lanes& a, const Lanes& b, const Lanes& c) {
+  return {hn::MulSub(a.v, b.v, c.v)};
+}
+HWY_INLINE Lanes WithoutFirst(const Lanes& a) {
+  return {hn::IfThenZeroElse(hn::FirstN(FourTag(), 1), a.v)};
+}
 HWY_INLINE Lanes SelectLast(const Lanes& others, const Lanes& last) {
   return {hn::IfThenElse(hn::FirstN(FourTag(), 3), others.v, last.v)};
 }
@@ -167,6 +198,10 @@ struct Lanes {
   }
   static HWY_INLINE Lanes First(double x) {
     return {hn::InsertLane(hn::Zero(TwoTag()), 0, x), hn::Zero(TwoTag())};
+  }
+  static HWY_INLINE Lanes Signs(double a, double b, double c, double d) {
+    const double signs[4] = {a, b, c, d};
+    return Load(signs);
   }
   static HWY_INLINE Lanes Load(const double* p) {
     return {hn::LoadU(TwoTag(), p), hn::LoadU(TwoTag(), p + 2)};
@@ -202,6 +237,16 @@ HWY_INLINE Lanes Next(const Lanes& a) {
 HWY_INLINE Lanes Previous(const Lanes& a) {
   return {hn::ConcatUpperLower(TwoTag(), a.high, a.low),
           hn::CombineShiftRightBytes<8>(TwoTag(), a.high, a.low)};
+}
+HWY_INLINE Lanes SwapInPairs(const Lanes& a) {
+  return {hn::Shuffle01(a.low), hn::Shuffle01(a.high)};
+}
+HWY_INLINE Lanes SwapPairs(const Lanes& a) { return {a.high, a.low}; }
+HWY_INLINE Lanes MulSub(const Lanes& a, const Lanes& b, const Lanes& c) {
+  return {hn::MulSub(a.low, b.low, c.low), hn::MulSub(a.high, b.high, c.high)};
+}
+HWY_INLINE Lanes WithoutFirst(const Lanes& a) {
+  return {hn::IfThenZeroElse(hn::FirstN(TwoTag(), 1), a.low), a.high};
 }
 HWY_INLINE Lanes SelectLast(const Lanes& others, const Lanes& last) {
   return {others.low,

@@ -1,0 +1,194 @@
+#include "emmy/integrate/conventional_body_lanes.h"
+
+#include <gtest/gtest.h>
+#include <hwy/targets.h>
+
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+#include "emmy/base/double_double.h"
+#include "emmy/model/model_builder.h"
+#include "tests/support/paper_box.h"
+#include "tests/support/random_source.h"
+#include "tests/support/roundoff_bound.h"
+#include "tests/support/test_run.h"
+
+namespace emmy {
+namespace {
+
+constexpr double kTimeStep = 1e-3;
+
+class ConventionalBodyLanesTest : public ::testing::Test {
+ protected:
+  // Two boxes, so that a body has neighbours on both sides or none.
+  static ModelDescription Boxes() {
+    ModelDescription model = ModelOf(PaperBox(Formulation::kConventional));
+    RigidBodyDescription other = PaperBox(Formulation::kConventional);
+    other.name = "other";
+    other.position = {100.0, -20.0, 3.0};
+    other.velocity = {1.0, -2.0, 0.5};
+    other.angular_velocity = {-0.7, 0.2, 0.4};
+    model.rigid_bodies.push_back(other);
+    model.gravity = {0.1, 0.2, -9.81};
+    return model;
+  }
+
+  // All instruction sets again, whatever a test chose.
+  ~ConventionalBodyLanesTest() override { hwy::SetSupportedTargetsForTest(0); }
+};
+
+TEST_F(ConventionalBodyLanesTest, BitsAreTheSameWithEveryInstructionSet) {
+  const std::vector<int64_t> targets = hwy::SupportedAndGeneratedTargets();
+#if defined(__x86_64__)
+  // The plain one, and what any machine with AVX2 has besides.
+  ASSERT_GE(targets.size(), 2U);
+#endif
+  TestRun reference(Boxes(), kTimeStep);
+  ASSERT_TRUE(reference.Advance(200));
+  for (const int64_t target : targets) {
+    hwy::SetSupportedTargetsForTest(target);
+    TestRun run(Boxes(), kTimeStep);
+    ASSERT_TRUE(run.Advance(200));
+    EXPECT_TRUE(SameState(run.state(), reference.state()))
+        << hwy::TargetName(target);
+  }
+}
+
+// From states along a motion, with compensations made so large that one which
+// is forgotten shows. Both finish in double-double arithmetic: what is left of
+// a step is 2⁻²⁰ u of its increment here, and there what Newton's method with
+// J alone leaves of a rounding error, |W| Δt u of it.
+TEST_F(ConventionalBodyLanesTest, TheStepIsThatOfTheGeneralCode) {
+  TestRun run(Boxes(), kTimeStep);
+  RandomSource random(5);
+  for (int i = 0; i < 50; ++i) {
+    ASSERT_TRUE(run.Advance(1));
+    State state = run.state();
+    constexpr double kLarge = 1e-9;
+    for (Eigen::Index k = 0; k < state.velocity.value.size(); ++k) {
+      state.velocity.compensation(k) += kLarge * random.Uniform(-1.0, 1.0);
+    }
+    for (const ModelBody& body : run.model().bodies()) {
+      const ConventionalBodyLanes lanes(*body.conventional(), kTimeStep, {});
+      ConventionalLanesIncrement fast;
+      const BodyStepResult result = SolveInLanes(lanes, body, state, &fast);
+      ASSERT_EQ(result.termination, Termination::kConverged);
+
+      const Eigen::Index q = body.position_offset + 3;
+      const Eigen::Index w = body.velocity_offset + 3;
+      const ConventionalBodyStart start{
+          .quaternion = state.position.value.segment<4>(q),
+          .quaternion_compensation = state.position.compensation.segment<4>(q),
+          .angular_velocity = state.velocity.value.segment<3>(w),
+          .angular_velocity_compensation =
+              state.velocity.compensation.segment<3>(w)};
+      ConventionalBodyIncrement general;
+      ASSERT_EQ(ConventionalBodyStep(*body.conventional(), kTimeStep, {})
+                    .Solve(start, Vector3d::Zero(), &general)
+                    .termination,
+                Termination::kConverged);
+
+      const double size = general.angular_velocity.cwiseAbs().maxCoeff();
+      for (int k = 0; k < 3; ++k) {
+        const double difference =
+            (fast.angular_velocity[1 + k] - general.angular_velocity(k)) +
+            (fast.angular_velocity_low[1 + k] -
+             general.angular_velocity_low(k));
+        EXPECT_LE(std::abs(difference), kTimeStep * RoundoffBound(16, size));
+      }
+      for (int k = 0; k < 4; ++k) {
+        EXPECT_NEAR(fast.quaternion[k], general.quaternion(k),
+                    RoundoffBound(16, kTimeStep));
+      }
+    }
+  }
+}
+
+// Against the plain loops of CompensatedVector and Extrapolation.
+TEST_F(ConventionalBodyLanesTest, AdvancesTheStateBitForBit) {
+  TestRun run(Boxes(), kTimeStep);
+  ASSERT_TRUE(run.Advance(7));
+  RandomSource random(6);
+  const Vector3d gravity = run.model().gravity();
+  State fast = run.state();
+  State plain = run.state();
+  for (const ModelBody& body : run.model().bodies()) {
+    const Eigen::Index q = body.position_offset;
+    const Eigen::Index w = body.velocity_offset;
+    ConventionalLanesIncrement increment;
+    for (double& x : increment.quaternion) x = random.Uniform(-1.0, 1.0);
+    for (double& x : increment.angular_velocity) x = random.Uniform(-1.0, 1.0);
+    for (double& x : increment.angular_velocity_low) {
+      x = 1e-17 * random.Uniform(-1.0, 1.0);
+    }
+    CommitInLanes(increment, kTimeStep, gravity, body, fast);
+
+    plain.position.Add(q + 3, Eigen::Map<const Vector4d>(increment.quaternion));
+    const Vector3d change = kTimeStep * gravity;
+    for (int i = 0; i < 3; ++i) {
+      const double mean =
+          plain.velocity.value(w + i) +
+          (plain.velocity.compensation(w + i) + 0.5 * change(i));
+      const SumAndError product = TwoProduct(kTimeStep, mean);
+      AddCompensated(product.sum, product.error, plain.position.value(q + i),
+                     plain.position.compensation(q + i));
+      AddCompensated(increment.angular_velocity[1 + i],
+                     increment.angular_velocity_low[1 + i],
+                     plain.velocity.value(w + 3 + i),
+                     plain.velocity.compensation(w + 3 + i));
+    }
+    plain.velocity.Add(w, change);
+    const Vector3d rates =
+        Eigen::Map<const Vector3d>(increment.angular_velocity + 1);
+    Extrapolation::Errors errors{};
+    plain.acceleration.Add(w + 3, (1.0 / kTimeStep) * rates, &errors);
+    plain.acceleration.Predict(w + 3, 3, Extrapolation::BestOrder(errors));
+  }
+  EXPECT_TRUE(SameState(fast, plain));
+}
+
+TEST_F(ConventionalBodyLanesTest, ABodyThatTurnsAboutAnAxisKeepsItsVelocity) {
+  RigidBodyDescription box = PaperBox(Formulation::kConventional);
+  box.angular_velocity = {0.0, 0.0, 2.0};
+  TestRun run(ModelOf(box), 0.1);
+  ASSERT_TRUE(run.Advance(1000));
+  EXPECT_EQ(run.state().velocity.value.segment<3>(3), Vector3d(0.0, 0.0, 2.0));
+}
+
+TEST_F(ConventionalBodyLanesTest, NothingThatIsNotFiniteConverges) {
+  for (const double bad : {std::numeric_limits<double>::quiet_NaN(),
+                           std::numeric_limits<double>::infinity()}) {
+    for (const Eigen::Index entry : {3, 4, 5}) {
+      TestRun run(Boxes(), kTimeStep);
+      const ModelBody& body = run.model().bodies()[0];
+      State state = run.state();
+      state.velocity.value(entry) = bad;
+      ConventionalLanesIncrement increment;
+      const ConventionalBodyLanes lanes(*body.conventional(), kTimeStep, {});
+      EXPECT_NE(SolveInLanes(lanes, body, state, &increment).termination,
+                Termination::kConverged)
+          << bad << " at " << entry;
+    }
+    TestRun run(Boxes(), kTimeStep);
+    const ModelBody& body = run.model().bodies()[0];
+    State state = run.state();
+    state.position.value(4) = bad;
+    ConventionalLanesIncrement increment;
+    const ConventionalBodyLanes lanes(*body.conventional(), kTimeStep, {});
+    EXPECT_NE(SolveInLanes(lanes, body, state, &increment).termination,
+              Termination::kConverged)
+        << bad;
+  }
+}
+
+TEST_F(ConventionalBodyLanesTest, NeedsPrincipalAxes) {
+  RigidBodyInertia inertia = PaperBoxInertia();
+  EXPECT_TRUE(ConventionalBodyLanes::Fits(ConventionalRigidBody(inertia)));
+  inertia.tensor(0, 1) = inertia.tensor(1, 0) = 1.0;
+  EXPECT_FALSE(ConventionalBodyLanes::Fits(ConventionalRigidBody(inertia)));
+}
+
+}  // namespace
+}  // namespace emmy
