@@ -17,6 +17,7 @@
 #include "emmy/integrate/body_lanes-inl.h"
 #include "emmy/numerics/compensated_lanes-inl.h"
 #include "emmy/numerics/four_lanes-inl.h"
+#include "emmy/numerics/vector_lanes-inl.h"
 #include "hwy/highway.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -24,41 +25,6 @@ namespace emmy {
 namespace HWY_NAMESPACE {
 
 constexpr double kUnitRoundoff = std::numeric_limits<double>::epsilon() / 2.0;
-
-// The x, y and z of four vectors.
-struct Vectors {
-  Lanes x, y, z;
-};
-
-HWY_INLINE Vectors operator+(const Vectors& a, const Vectors& b) {
-  return {a.x + b.x, a.y + b.y, a.z + b.z};
-}
-HWY_INLINE Vectors operator-(const Vectors& a, const Vectors& b) {
-  return {a.x - b.x, a.y - b.y, a.z - b.z};
-}
-HWY_INLINE Vectors operator*(const Lanes& s, const Vectors& a) {
-  return {s * a.x, s * a.y, s * a.z};
-}
-HWY_INLINE Lanes Dot(const Vectors& a, const Vectors& b) {
-  return (a.x * b.x + a.y * b.y) + a.z * b.z;
-}
-HWY_INLINE Vectors Cross(const Vectors& a, const Vectors& b) {
-  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
-}
-HWY_INLINE Vectors Next(const Vectors& a) {
-  return {Next(a.x), Next(a.y), Next(a.z)};
-}
-HWY_INLINE Vectors Previous(const Vectors& a) {
-  return {Previous(a.x), Previous(a.y), Previous(a.z)};
-}
-HWY_INLINE Lanes MaxAbs(const Vectors& a) {
-  return Max(Max(Abs(a.x), Abs(a.y)), Abs(a.z));
-}
-HWY_INLINE Vectors LoadVectors(const double* p) {
-  Vectors v;
-  LoadInterleaved(p, &v.x, &v.y, &v.z);
-  return v;
-}
 
 // A step is one long chain of operations that wait for each other. What the
 // chain need not wait for is taken out of it: halves are carried instead of

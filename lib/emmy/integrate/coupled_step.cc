@@ -46,6 +46,9 @@ CoupledStep::CoupledStep(const Structure& structure, double time_step,
   for (VectorXd* v : {&strain0_, &strain0_compensation_, &strain_increment_}) {
     v->setZero(strains);
   }
+  if (!options.always_factorize && LinedBodyLanes::Fits(structure)) {
+    lanes_.emplace(structure, time_step, options.newton);
+  }
 }
 
 // Of a constraint's force in the state.
@@ -384,9 +387,15 @@ BodyStepResult CoupledStep::IterateAndCheck(bool exact) {
 }
 
 BodyStepResult CoupledStep::Solve(const State& state) {
-  Load(state);
-  BodyStepResult result = IterateAndCheck(/*exact=*/false);
+  BodyStepResult result;
+  if (lanes_.has_value()) {
+    result = lanes_->Solve(state, &dw_, &dq_, &strain_increment_);
+    if (result.termination == Termination::kConverged) return result;
+  }
   int iterations = result.iterations;
+  Load(state);
+  result = IterateAndCheck(/*exact=*/false);
+  iterations += result.iterations;
   // Once more from a start without strain, then with the exact Jacobian.
   for (const bool exact : {false, true}) {
     if (result.termination == Termination::kConverged) break;

@@ -19,11 +19,13 @@
 #ifndef EMMY_INTEGRATE_COUPLED_STEP_H_
 #define EMMY_INTEGRATE_COUPLED_STEP_H_
 
+#include <optional>
 #include <string>
 
 #include "emmy/base/types.h"
 #include "emmy/integrate/ancf_body_step.h"
 #include "emmy/integrate/coupled_tangent.h"
+#include "emmy/integrate/lined_body_lanes.h"
 #include "emmy/integrate/structure.h"
 #include "emmy/integrate/structure_lines.h"
 #include "emmy/model/state.h"
@@ -89,6 +91,7 @@ class CoupledStep {
   CoupledStepOptions options_;
   CoupledTangent tangent_;
   bool renew_ = true;
+  std::optional<LinedBodyLanes> lanes_;  // Tried first, where it fits.
 
   // The start of the step.
   Matrix3Xd q0_, q0_compensation_, w0_, w0_compensation_;

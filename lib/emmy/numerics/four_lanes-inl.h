@@ -5,11 +5,11 @@
 // The first lane stands apart: Next and Previous turn the last three,
 //   Next (a, 1, 2, 3) = (a, 2, 3, 1),  Previous (a, 1, 2, 3) = (a, 3, 1, 2),
 // so that a sum over the cyclic pairs of three vectors is one of lanes.
-// SwapInPairs gives (1, 0, 3, 2), SwapPairs (2, 3, 0, 1).
-// WithoutFirst puts zero into the first lane,
-// SelectLast takes the last lane from its second argument, LoadFromSecond puts
-// three numbers into the last three lanes (and reads a fourth), LoadInterleaved
-// reads x₀ y₀ z₀ x₁ … z₃.
+// Broadcast<i> puts lane i into all, SwapInPairs gives (1, 0, 3, 2), SwapPairs
+// (2, 3, 0, 1). WithoutFirst puts zero into the first lane, SelectLast takes
+// the last lane from its second argument, LoadFromSecond puts three numbers
+// into the last three lanes (and reads a fourth), LoadInterleaved reads x₀ y₀
+// z₀ x₁ … z₃.
 //
 // No operation is fused with another: the bits are those of plain arithmetic.
 
@@ -74,6 +74,10 @@ inline Lanes Abs(const Lanes& a) {
 inline Lanes Next(const Lanes& a) { return {{a.v[0], a.v[2], a.v[3], a.v[1]}}; }
 inline Lanes Previous(const Lanes& a) {
   return {{a.v[0], a.v[3], a.v[1], a.v[2]}};
+}
+template <int i>
+inline Lanes Broadcast(const Lanes& a) {
+  return Lanes::Set(a.v[i]);
 }
 inline Lanes SwapInPairs(const Lanes& a) {
   return {{a.v[1], a.v[0], a.v[3], a.v[2]}};
@@ -157,6 +161,11 @@ HWY_INLINE Lanes Previous(const Lanes& a) {
   static constexpr int64_t kFrom[4] = {0, 3, 1, 2};
   return Permuted(a, kFrom);
 }
+template <int i>
+HWY_INLINE Lanes Broadcast(const Lanes& a) {
+  static constexpr int64_t kFrom[4] = {i, i, i, i};
+  return Permuted(a, kFrom);
+}
 HWY_INLINE Lanes SwapInPairs(const Lanes& a) {
   return {hn::Reverse2(FourTag(), a.v)};
 }
@@ -237,6 +246,11 @@ HWY_INLINE Lanes Next(const Lanes& a) {
 HWY_INLINE Lanes Previous(const Lanes& a) {
   return {hn::ConcatUpperLower(TwoTag(), a.high, a.low),
           hn::CombineShiftRightBytes<8>(TwoTag(), a.high, a.low)};
+}
+template <int i>
+HWY_INLINE Lanes Broadcast(const Lanes& a) {
+  const auto lane = hn::Broadcast<i % 2>(i < 2 ? a.low : a.high);
+  return {lane, lane};
 }
 HWY_INLINE Lanes SwapInPairs(const Lanes& a) {
   return {hn::Shuffle01(a.low), hn::Shuffle01(a.high)};
