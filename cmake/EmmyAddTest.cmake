@@ -9,7 +9,7 @@ function(_emmy_set_up_test target)
   set_target_properties(${target} PROPERTIES CXX_EXTENSIONS OFF)
   target_include_directories(${target} PRIVATE "${PROJECT_SOURCE_DIR}")
   target_link_libraries(${target} PRIVATE
-    emmy emmy_verification emmy_warnings GTest::gmock_main)
+    emmy emmy_warnings nlohmann_json::nlohmann_json GTest::gmock_main)
   # -Wextra asks to name every field of a designated initialiser; a test that
   # sets only the field it is about is clearer.
   target_compile_options(${target} PRIVATE -Wno-missing-field-initializers)
@@ -27,14 +27,20 @@ if(EMMY_PRECOMPILE_TEST_HEADERS)
 endif()
 
 # emmy_add_test(<name> <source>... [LABELS <label>...] [LIBRARIES <target>...]
-#               [TIMEOUT <seconds>] [ARGUMENTS <argument>...])
+#               [TIMEOUT <seconds>] [ARGUMENTS <argument>...] [LIBRARY_ONLY])
 #
 # One GoogleTest program from all tests of one folder, because linking costs
 # more than compiling a further file. Without sources nothing is built, so a
 # folder may be added before its first test. `ctest -N` lists each test as
 # <name without emmy_ and _test>/<Suite>.<Test>; ctest -L selects by label.
+#
+# LIBRARY_ONLY: the test is of lib alone and is not linked to the verification,
+# which then need not be built: half of the time where every line is
+# instrumented. emmy_library_tests builds all of these, `ctest -L library` runs
+# them.
+add_custom_target(emmy_library_tests)
 function(emmy_add_test name)
-  cmake_parse_arguments(PARSE_ARGV 1 arg "" "TIMEOUT"
+  cmake_parse_arguments(PARSE_ARGV 1 arg "LIBRARY_ONLY" "TIMEOUT"
     "LABELS;LIBRARIES;ARGUMENTS")
   if(NOT arg_UNPARSED_ARGUMENTS)
     return()
@@ -44,10 +50,18 @@ function(emmy_add_test name)
   endif()
   string(REGEX REPLACE "^emmy_(.*)_test$" "\\1" folder "${name}")
   list(APPEND arg_LABELS ${folder})
+  if(arg_LIBRARY_ONLY)
+    list(APPEND arg_LABELS library)
+  endif()
   list(REMOVE_DUPLICATES arg_LABELS)
 
   add_executable(${name} ${arg_UNPARSED_ARGUMENTS})
   _emmy_set_up_test(${name})
+  if(arg_LIBRARY_ONLY)
+    add_dependencies(emmy_library_tests ${name})
+  else()
+    list(APPEND arg_LIBRARIES emmy_verification)
+  endif()
   target_link_libraries(${name} PRIVATE ${arg_LIBRARIES})
   if(EMMY_PRECOMPILE_TEST_HEADERS)
     target_precompile_headers(${name} REUSE_FROM emmy_test_headers)

@@ -231,6 +231,40 @@ TEST_F(ResumeTest, ADiskTooFullForACheckpointKeepsTheLastOne) {
   EXPECT_THAT(Files(), ElementsAre("c", "tangle.json"));
 }
 
+// The same on a file system that is full, not only to a file that may not
+// grow: what fits no more, the temporary file of a checkpoint included, is
+// gone.
+TEST_F(ResumeTest, AFullFileSystemLeavesWhatItTakesToGoOn) {
+  const std::string apart = "unshare --map-root-user --mount sh -c ";
+  if (Shell(apart + "'mount -t tmpfs none .'").exit_status != 0) {
+    GTEST_SKIP() << "no file system of one's own may be mounted here";
+  }
+  const std::string run =
+      "\"$EMMY\" run tangle.json --output small --quiet --steps 200 "
+      "--set /output/every=1 --checkpoint-every 5 ";
+  Shell("mkdir small");
+  // It goes with its name space: files are copied while it is there.
+  const ProgramResult result =
+      Shell("export EMMY; " + apart +
+            "'mount -t tmpfs -o size=128k none small && {\n" + run +
+            "--checkpoint small/c 2>first\necho $? >status; cp -r small full\n"
+            "mount -o remount,size=8m small\n" +
+            run + "--resume small/c 2>second; cp -r small parts; }'");
+  ASSERT_EQ(result.err, "");
+  EXPECT_EQ(Read("status"), "1\n");
+  EXPECT_THAT(Read("first"), HasSubstr("No space left on device\n"));
+  EXPECT_THAT(Read("first"), HasSubstr("\nTo go on: emmy run tangle.json "));
+  const Checkpoint last = Decode("full/c");
+  EXPECT_GT(last.state.step, 0);
+  EXPECT_LT(last.state.step, 200);
+  EXPECT_GE(Read("full/history.csv").size(), last.history->bytes);
+  EXPECT_EQ(Read("second"), "");
+  Run("run tangle.json --output whole --quiet --steps 200 "
+      "--set /output/every=1");
+  EXPECT_TRUE(Read("parts/history.csv") == Read("whole/history.csv"));
+  EXPECT_EQ(Summary("parts"), Summary("whole"));
+}
+
 TEST_F(ResumeTest, ADeviceThatIsFullFailsClearly) {
   if (!std::filesystem::exists("/dev/full")) GTEST_SKIP() << "no /dev/full";
   const ProgramResult result = Shell(

@@ -40,6 +40,24 @@ TEST_F(InvariantMonitorTest, StartsWithoutError) {
   EXPECT_EQ(monitor.angular_momentum().initial, Vector3d(0.0, 0.0, -32400.0));
 }
 
+TEST_F(InvariantMonitorTest, GoesOnAsIfItHadNeverStopped) {
+  InvariantMonitor whole(built_.model, built_.state);
+  whole.Observe(WithVelocity(3.0));
+  whole.Observe(WithVelocity(2.0));
+  const InvariantExtremes extremes = whole.extremes();
+  InvariantMonitor resumed(built_.model, built_.state);
+  resumed.Resume(WithVelocity(2.0), extremes);
+  for (InvariantMonitor* monitor : {&whole, &resumed}) {
+    monitor->Observe(WithVelocity(1.5));
+  }
+  // Of v = 3 m/s, which it has not seen: ½ M (9 − 1) and M (3 − 1).
+  EXPECT_EQ(resumed.energy().max_error, 64800.0);
+  EXPECT_EQ(resumed.momentum().max_error, 32400.0);
+  EXPECT_EQ(resumed.energy().final, whole.energy().final);
+  EXPECT_EQ(resumed.extremes().max_error, whole.extremes().max_error);
+  EXPECT_EQ(resumed.extremes().scale, whole.extremes().scale);
+}
+
 TEST_F(InvariantMonitorTest, KeepsTheLargestErrorAndTheLatestValue) {
   InvariantMonitor monitor(built_.model, built_.state);
   monitor.Observe(WithVelocity(3.0));

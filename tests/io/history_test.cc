@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "absl/strings/str_split.h"
+#include "emmy/diagnostics/invariants.h"
 #include "emmy/io/case_file.h"
 #include "emmy/io/text_file.h"
 #include "emmy/model/model_builder.h"
@@ -184,6 +185,71 @@ TEST_F(HistoryTest, ReportsAFolderThatIsMissing) {
             folder_ +
                 "/none/history.csv: cannot be opened: No such file or "
                 "directory");
+}
+
+class ResumedHistoryTest : public HistoryTest {
+ protected:
+  // Two rows, the position after the first.
+  void SetUp() override {
+    HistoryTest::SetUp();
+    absl::StatusOr<HistoryWriter> writer =
+        HistoryWriter::Create(path_, built_.model);
+    ASSERT_TRUE(writer.ok()) << writer.status();
+    ASSERT_TRUE(Write(*writer, 1).ok());
+    position_ = writer->Sync().value();
+    after_one_ = *ReadTextFile(path_, 1 << 20);
+    ASSERT_TRUE(Write(*writer, 2).ok());
+    after_two_ = *ReadTextFile(path_, 1 << 20);
+  }
+
+  absl::Status Write(HistoryWriter& writer, int iterations) {
+    return writer.Write(built_.model, built_.state,
+                        MeasureInvariants(built_.model, built_.state),
+                        iterations);
+  }
+
+  // The message, with nothing in the file changed.
+  std::string Refusal(const std::string& path) {
+    const std::string before = *ReadTextFile(path_, 1 << 20);
+    const absl::StatusOr<HistoryWriter> writer =
+        HistoryWriter::Resume(path, built_.model, position_);
+    EXPECT_FALSE(writer.ok());
+    EXPECT_EQ(*ReadTextFile(path_, 1 << 20), before);
+    return std::string(writer.status().message());
+  }
+
+  BuiltModel built_ = TwoBodies();
+  HistoryPosition position_;
+  std::string after_one_;
+  std::string after_two_;
+};
+
+TEST_F(ResumedHistoryTest, CutsOffWhatIsBeyondAndGoesOn) {
+  absl::StatusOr<HistoryWriter> writer =
+      HistoryWriter::Resume(path_, built_.model, position_);
+  ASSERT_TRUE(writer.ok()) << writer.status();
+  EXPECT_EQ(*ReadTextFile(path_, 1 << 20), after_one_);
+  ASSERT_TRUE(Write(*writer, 2).ok());
+  EXPECT_EQ(*ReadTextFile(path_, 1 << 20), after_two_);
+  EXPECT_EQ(writer->Sync().value().bytes, after_two_.size());
+}
+
+TEST_F(ResumedHistoryTest, RefusesAFileThatIsShortOrWasChanged) {
+  ASSERT_TRUE(
+      WriteTextFile(path_, after_one_.substr(0, after_one_.size() - 7)).ok());
+  EXPECT_THAT(Refusal(path_), HasSubstr("the checkpoint was written at"));
+  std::string changed = after_one_;
+  char& middle = changed[changed.size() / 2];
+  middle = static_cast<char>(middle ^ 1);
+  ASSERT_TRUE(WriteTextFile(path_, changed).ok());
+  EXPECT_THAT(Refusal(path_),
+              HasSubstr("is not the history of the checkpoint"));
+}
+
+TEST_F(ResumedHistoryTest, RefusesWhatIsNoFile) {
+  EXPECT_THAT(Refusal(folder_), HasSubstr("is not a regular file"));
+  EXPECT_THAT(Refusal(folder_ + "/none"),
+              HasSubstr("cannot be continued: No such file or directory"));
 }
 
 }  // namespace

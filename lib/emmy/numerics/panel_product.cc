@@ -71,7 +71,7 @@ HWY_INLINE void TimesRows(const Scalar* HWY_RESTRICT panel, int rows,
   constexpr int kLanes = static_cast<int>(hn::MaxLanes(Tag<Scalar>()));
   constexpr int kVectors =
       kBlocks * 64 / static_cast<int>(sizeof(Scalar)) / kLanes;
-  hn::Vec<Tag<Scalar>> sum[kVectors];
+  hn::Vec<Tag<Scalar>> sum[size_t{kVectors}];
   for (auto& s : sum) s = hn::Zero(tag);
   for (int c = 0; c < columns; ++c) {
     const auto factor = hn::Set(tag, x[c]);
@@ -139,7 +139,7 @@ HWY_INLINE void TransposedColumns(const Scalar* HWY_RESTRICT panel, int rows,
   constexpr int kBlock = 64 / static_cast<int>(sizeof(Scalar));
   constexpr int kVectors = kBlock / kLanes;
   constexpr int kUnit = kPanelRowUnit<Scalar>;
-  hn::Vec<Tag<Scalar>> sum[kColumns][kVectors];
+  hn::Vec<Tag<Scalar>> sum[size_t{kColumns}][size_t{kVectors}];
   for (auto& column : sum) {
     for (auto& s : column) s = hn::Zero(tag);
   }
@@ -155,7 +155,7 @@ HWY_INLINE void TransposedColumns(const Scalar* HWY_RESTRICT panel, int rows,
       }
     }
   }
-  hn::Vec<QuarterTag<Scalar>> total[kColumns];
+  hn::Vec<QuarterTag<Scalar>> total[size_t{kColumns}];
   for (int c = 0; c < kColumns; ++c) {
     total[c] = Quarter<Scalar, kVectors>(sum[c]);
   }
@@ -168,7 +168,7 @@ HWY_INLINE void TransposedColumns(const Scalar* HWY_RESTRICT panel, int rows,
     }
   }
   for (int c = 0; c < kColumns; ++c) {
-    HWY_ALIGN Scalar lanes[kUnit];
+    HWY_ALIGN Scalar lanes[size_t{kUnit}];
     hn::Store(total[c], quarter_tag, lanes);
     if constexpr (kUnit == 4) {
       y[c] = (lanes[0] + lanes[2]) + (lanes[1] + lanes[3]);
