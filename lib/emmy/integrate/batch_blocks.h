@@ -1,0 +1,84 @@
+// How a batch keeps its bodies: eight to a block, one array for each number.
+//
+// A lane is a body. Eight doubles are 64 bytes, the widest vector there is; a
+// narrower one takes a block in parts. All arrays are indexed [entry][lane];
+// gradient vectors and rates have the entries of e₁, then e₂, then e₃.
+
+#ifndef EMMY_INTEGRATE_BATCH_BLOCKS_H_
+#define EMMY_INTEGRATE_BATCH_BLOCKS_H_
+
+#include <cstddef>
+
+namespace emmy {
+
+inline constexpr int kBatchLanes = 8;
+
+using Lanes = double[kBatchLanes];
+
+// What all bodies of a batch have in common.
+struct BatchStep {
+  double time_step = 0.0;          // Δt
+  double inverse_time_step = 0.0;  // 1/Δt
+  double velocity_increment[3] = {0.0, 0.0, 0.0};  // Δt g
+};
+
+// A compensated vector: (SUM-2).
+template <size_t kEntries>
+struct CompensatedLanes {
+  alignas(64) Lanes value[kEntries];
+  Lanes compensation[kEntries];
+};
+
+// Accelerations of the last steps: (EXTRA-1).
+template <size_t kEntries>
+struct ExtrapolationLanes {
+  static constexpr size_t kDifferences = 4;  // ∇⁰ … ∇³; ∇⁴ only ranks orders.
+  alignas(64) Lanes next[kEntries];
+  Lanes difference[kDifferences][kEntries];
+};
+
+// What both kinds of body have.
+struct CentreLanes {
+  CompensatedLanes<3> position;
+  CompensatedLanes<3> velocity;
+  // 1 for a body that is stepped, 0 for one that has failed and for padding.
+  alignas(64) Lanes alive;
+  Lanes iterations;  // Done so far.
+};
+
+// ANCF bodies in principal axes.
+struct AncfBlock {
+  CentreLanes centre;
+  CompensatedLanes<9> gradients;
+  CompensatedLanes<9> rates;
+  CompensatedLanes<6> strain;
+  ExtrapolationLanes<9> acceleration;
+
+  // Constants of bodies and time step, c as in (EM-6).
+  alignas(64) Lanes moment[3];          // Mⁱⁱ
+  Lanes inverse_moment[3];              // 1/Mⁱⁱ
+  Lanes impulse[6];                     // Δt bₖ
+  Lanes normal_inverse[3];              // 1/(Mⁱⁱ + cᵢ)
+  Lanes shear_first[3];                 // Mⁿ/determinant
+  Lanes shear_second[3];                // Mᵐ/determinant
+  Lanes shear_coupling[3];              // c/determinant
+  Lanes inverse_smallest_moment_sum;    // Of two Mⁱⁱ.
+  Lanes mass_dominates;                 // 1: M alone is the tangent.
+};
+
+// Conventional bodies in principal axes.
+struct ConventionalBlock {
+  CentreLanes centre;
+  CompensatedLanes<4> quaternion;
+  CompensatedLanes<3> angular_velocity;
+  ExtrapolationLanes<3> acceleration;
+
+  alignas(64) Lanes inertia[3];  // Jᵢ
+  Lanes inverse_inertia[3];
+  Lanes coupling[3];             // ½ Δt (J_k − J_j)/Jᵢ, i, j, k cyclic.
+  Lanes inverse_smallest_inertia;
+};
+
+}  // namespace emmy
+
+#endif  // EMMY_INTEGRATE_BATCH_BLOCKS_H_

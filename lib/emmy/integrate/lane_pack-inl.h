@@ -1,0 +1,312 @@
+// Several bodies' numbers in one vector register, with the operators of one.
+//
+// Compiled once for each instruction set; see batch_kernels.cc. Every operation
+// acts on each lane by itself and rounds as IEEE 754 says, products before they
+// are added, so that a lane has the same bits in a vector of any width.
+
+#if defined(EMMY_INTEGRATE_LANE_PACK_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef EMMY_INTEGRATE_LANE_PACK_INL_H_
+#undef EMMY_INTEGRATE_LANE_PACK_INL_H_
+#else
+#define EMMY_INTEGRATE_LANE_PACK_INL_H_
+#endif
+
+#include <cstddef>
+#include <limits>
+
+#include "emmy/integrate/batch_blocks.h"
+#include "hwy/highway.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace emmy {
+namespace HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+using PackTag = hn::CappedTag<double, kBatchLanes>;
+inline constexpr int kPackLanes = static_cast<int>(hn::MaxLanes(PackTag()));
+
+struct Pack {
+  hn::Vec<PackTag> v;
+};
+struct Flag {
+  hn::Mask<PackTag> m;
+};
+
+HWY_INLINE Pack Broadcast(double x) { return {hn::Set(PackTag(), x)}; }
+HWY_INLINE Pack Load(const double* lanes) {
+  return {hn::Load(PackTag(), lanes)};
+}
+HWY_INLINE void Store(Pack x, double* lanes) {
+  hn::Store(x.v, PackTag(), lanes);
+}
+
+HWY_INLINE Pack operator+(Pack a, Pack b) { return {hn::Add(a.v, b.v)}; }
+HWY_INLINE Pack operator-(Pack a, Pack b) { return {hn::Sub(a.v, b.v)}; }
+HWY_INLINE Pack operator*(Pack a, Pack b) { return {hn::Mul(a.v, b.v)}; }
+HWY_INLINE Pack operator/(Pack a, Pack b) { return {hn::Div(a.v, b.v)}; }
+HWY_INLINE Pack SquareRoot(Pack a) { return {hn::Sqrt(a.v)}; }
+HWY_INLINE Pack Absolute(Pack a) { return {hn::Abs(a.v)}; }
+// Which of the two is returned if one is NaN depends on the instruction set;
+// such a lane never converges, and so leaves no trace.
+HWY_INLINE Pack Larger(Pack a, Pack b) { return {hn::Max(a.v, b.v)}; }
+HWY_INLINE Pack Smaller(Pack a, Pack b) { return {hn::Min(a.v, b.v)}; }
+
+HWY_INLINE Flag operator<(Pack a, Pack b) { return {hn::Lt(a.v, b.v)}; }
+HWY_INLINE Flag operator<=(Pack a, Pack b) { return {hn::Le(a.v, b.v)}; }
+HWY_INLINE Flag And(Flag a, Flag b) { return {hn::And(a.m, b.m)}; }
+HWY_INLINE Flag Or(Flag a, Flag b) { return {hn::Or(a.m, b.m)}; }
+// a and not b.
+HWY_INLINE Flag Without(Flag a, Flag b) { return {hn::AndNot(b.m, a.m)}; }
+HWY_INLINE bool All(Flag a) { return hn::AllTrue(PackTag(), a.m); }
+HWY_INLINE bool None(Flag a) { return hn::AllFalse(PackTag(), a.m); }
+HWY_INLINE Pack Choose(Flag condition, Pack yes, Pack no) {
+  return {hn::IfThenElse(condition.m, yes.v, no.v)};
+}
+HWY_INLINE Pack OrZero(Flag condition, Pack yes) {
+  return {hn::IfThenElseZero(condition.m, yes.v)};
+}
+
+struct Pack3 {
+  Pack x, y, z;
+};
+HWY_INLINE Pack3 operator+(const Pack3& a, const Pack3& b) {
+  return {a.x + b.x, a.y + b.y, a.z + b.z};
+}
+HWY_INLINE Pack3 operator-(const Pack3& a, const Pack3& b) {
+  return {a.x - b.x, a.y - b.y, a.z - b.z};
+}
+HWY_INLINE Pack3 operator*(Pack s, const Pack3& a) {
+  return {s * a.x, s * a.y, s * a.z};
+}
+HWY_INLINE Pack Dot(const Pack3& a, const Pack3& b) {
+  return (a.x * b.x + a.y * b.y) + a.z * b.z;
+}
+HWY_INLINE Pack3 Cross(const Pack3& a, const Pack3& b) {
+  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+HWY_INLINE Pack MaxAbsolute(const Pack3& a) {
+  return Larger(Larger(Absolute(a.x), Absolute(a.y)), Absolute(a.z));
+}
+HWY_INLINE Pack3 Choose(Flag condition, const Pack3& yes, const Pack3& no) {
+  return {Choose(condition, yes.x, no.x), Choose(condition, yes.y, no.y),
+          Choose(condition, yes.z, no.z)};
+}
+HWY_INLINE Pack3 Load3(const Lanes* entries, int lane) {
+  return {Load(entries[0] + lane), Load(entries[1] + lane),
+          Load(entries[2] + lane)};
+}
+
+// Columns a, b, c.
+struct Pack33 {
+  Pack3 a, b, c;
+};
+HWY_INLINE Pack33 operator+(const Pack33& m, const Pack33& n) {
+  return {m.a + n.a, m.b + n.b, m.c + n.c};
+}
+HWY_INLINE Pack33 operator-(const Pack33& m, const Pack33& n) {
+  return {m.a - n.a, m.b - n.b, m.c - n.c};
+}
+HWY_INLINE Pack33 operator*(Pack s, const Pack33& m) {
+  return {s * m.a, s * m.b, s * m.c};
+}
+HWY_INLINE Pack3 operator*(const Pack33& m, const Pack3& v) {
+  return (v.x * m.a + v.y * m.b) + v.z * m.c;
+}
+HWY_INLINE Pack33 operator*(const Pack33& m, const Pack33& n) {
+  return {m * n.a, m * n.b, m * n.c};
+}
+// mᵀ v
+HWY_INLINE Pack3 TransposedTimes(const Pack33& m, const Pack3& v) {
+  return {Dot(m.a, v), Dot(m.b, v), Dot(m.c, v)};
+}
+HWY_INLINE Pack33 TransposedTimes(const Pack33& m, const Pack33& n) {
+  return {TransposedTimes(m, n.a), TransposedTimes(m, n.b),
+          TransposedTimes(m, n.c)};
+}
+HWY_INLINE Pack MaxAbsolute(const Pack33& m) {
+  return Larger(Larger(MaxAbsolute(m.a), MaxAbsolute(m.b)), MaxAbsolute(m.c));
+}
+HWY_INLINE Pack33 Choose(Flag condition, const Pack33& yes, const Pack33& no) {
+  return {Choose(condition, yes.a, no.a), Choose(condition, yes.b, no.b),
+          Choose(condition, yes.c, no.c)};
+}
+HWY_INLINE Pack33 Load33(const Lanes* entries, int lane) {
+  return {Load3(entries, lane), Load3(entries + 3, lane),
+          Load3(entries + 6, lane)};
+}
+// The vectors dual to the columns: m⁻ᵀ.
+HWY_INLINE Pack33 Dual(const Pack33& m) {
+  const Pack3 bc = Cross(m.b, m.c);
+  const Pack inverse = Broadcast(1.0) / Dot(m.a, bc);
+  return {inverse * bc, inverse * Cross(m.c, m.a), inverse * Cross(m.a, m.b)};
+}
+
+// What a step writes: only lanes of `done`, or all of them.
+template <bool kAll>
+class Writer {
+ public:
+  explicit Writer(Flag done) : done_(done) {}
+
+  HWY_INLINE void Write(Pack x, double* lanes) const {
+    if constexpr (kAll) {
+      Store(x, lanes);
+    } else {
+      Store(Choose(done_, x, Load(lanes)), lanes);
+    }
+  }
+
+  // (SUM-2); the lanes' values and compensations are at these addresses.
+  HWY_INLINE void Add(Pack increment, double* value,
+                      double* compensation) const {
+    const Pack a = Load(value);
+    const Pack b = increment + Load(compensation);
+    const Pack sum = a + b;
+    const Pack b_part = sum - a;
+    const Pack a_part = sum - b_part;
+    Write(sum, value);
+    Write((a - a_part) + (b - b_part), compensation);
+  }
+
+  HWY_INLINE void Add3(const Pack3& increment, Lanes* value,
+                       Lanes* compensation, int lane) const {
+    Add(increment.x, value[0] + lane, compensation[0] + lane);
+    Add(increment.y, value[1] + lane, compensation[1] + lane);
+    Add(increment.z, value[2] + lane, compensation[2] + lane);
+  }
+
+  HWY_INLINE void Add33(const Pack33& increment, int lane,
+                        CompensatedLanes<9>* to) const {
+    Add3(increment.a, to->value, to->compensation, lane);
+    Add3(increment.b, to->value + 3, to->compensation + 3, lane);
+    Add3(increment.c, to->value + 6, to->compensation + 6, lane);
+  }
+
+ private:
+  Flag done_;
+};
+
+struct PackSum {
+  Pack sum;
+  Pack error;
+};
+HWY_INLINE PackSum TwoSum(Pack a, Pack b) {  // (SUM-1)
+  const Pack sum = a + b;
+  const Pack b_part = sum - a;
+  const Pack a_part = sum - b_part;
+  return {sum, (a - a_part) + (b - b_part)};
+}
+HWY_INLINE PackSum TwoProduct(Pack a, Pack b) {  // (SUM-3)
+  const Pack split = Broadcast(134217729.0);     // 2²⁷ + 1.
+  const Pack product = a * b;
+  const Pack a_scaled = split * a;
+  const Pack a_high = a_scaled - (a_scaled - a);
+  const Pack a_low = a - a_high;
+  const Pack b_scaled = split * b;
+  const Pack b_high = b_scaled - (b_scaled - b);
+  const Pack b_low = b - b_high;
+  return {product,
+          ((a_high * b_high - product) + a_high * b_low + a_low * b_high) +
+              a_low * b_low};
+}
+
+// The centre of mass under constant gravity, in closed form.
+template <bool kAll>
+HWY_INLINE void AdvanceCentre(const BatchStep& step, const Writer<kAll>& writer,
+                              int lane, CentreLanes* centre) {
+  const Pack time_step = Broadcast(step.time_step);
+  for (int i = 0; i < 3; ++i) {
+    double* const x = centre->position.value[i] + lane;
+    double* const xc = centre->position.compensation[i] + lane;
+    double* const v = centre->velocity.value[i] + lane;
+    double* const vc = centre->velocity.compensation[i] + lane;
+    const Pack change = Broadcast(step.velocity_increment[i]);
+    const Pack mean =
+        Load(v) + (Load(vc) + Broadcast(0.5) * change);
+    const PackSum product = TwoProduct(time_step, mean);
+    const PackSum first = TwoSum(Load(x), product.sum);
+    const PackSum second =
+        TwoSum(first.sum, first.error + (Load(xc) + product.error));
+    writer.Write(second.sum, x);
+    writer.Write(second.error, xc);
+    writer.Add(change, v, vc);
+  }
+}
+
+// Takes the accelerations of this step and predicts the next (EXTRA-1).
+template <bool kAll, size_t kVectors>
+HWY_INLINE void Predict(const Pack3 (&acceleration)[kVectors],
+                        const Writer<kAll>& writer, int lane,
+                        ExtrapolationLanes<3 * kVectors>* kept) {
+  Pack error0 = Broadcast(0.0);
+  Pack error1 = error0;
+  Pack error2 = error0;
+  Pack error3 = error0;
+  Pack d1[3 * kVectors];
+  Pack d2[3 * kVectors];
+  Pack d3[3 * kVectors];
+#pragma GCC unroll 9
+  for (size_t i = 0; i < 3 * kVectors; ++i) {
+    const Pack3& vector = acceleration[i / 3];
+    const Pack value = i % 3 == 0 ? vector.x : i % 3 == 1 ? vector.y : vector.z;
+    d1[i] = value - Load(kept->difference[0][i] + lane);
+    d2[i] = d1[i] - Load(kept->difference[1][i] + lane);
+    d3[i] = d2[i] - Load(kept->difference[2][i] + lane);
+    const Pack d4 = d3[i] - Load(kept->difference[3][i] + lane);
+    writer.Write(value, kept->difference[0][i] + lane);
+    writer.Write(d1[i], kept->difference[1][i] + lane);
+    writer.Write(d2[i], kept->difference[2][i] + lane);
+    writer.Write(d3[i], kept->difference[3][i] + lane);
+    error0 = Larger(error0, Absolute(d1[i]));
+    error1 = Larger(error1, Absolute(d2[i]));
+    error2 = Larger(error2, Absolute(d3[i]));
+    error3 = Larger(error3, Absolute(d4));
+  }
+  const Pack best1 = Smaller(error0, error1);
+  const Flag third = error3 < Smaller(best1, error2);
+  const Flag second = Or(third, error2 < best1);
+  const Flag first = Or(second, error1 < error0);
+#pragma GCC unroll 9
+  for (size_t i = 0; i < 3 * kVectors; ++i) {
+    const Pack3& vector = acceleration[i / 3];
+    const Pack value = i % 3 == 0 ? vector.x : i % 3 == 1 ? vector.y : vector.z;
+    writer.Write(
+        ((OrZero(third, d3[i]) + OrZero(second, d2[i])) + OrZero(first, d1[i])) +
+            value,
+        kept->next[i] + lane);
+  }
+}
+
+// StagnationMonitor of newton.h for the sequences of several bodies.
+class PackMonitor {
+ public:
+  explicit PackMonitor(double negligible)
+      : negligible_(negligible),
+        previous_(Broadcast(std::numeric_limits<double>::infinity())),
+        stagnant_{previous_ < Broadcast(0.0)} {}
+
+  HWY_INLINE Flag Update(Pack correction, Pack floor, bool has_ratio) {
+    const Flag shrinks = correction < Broadcast(0.5) * previous_;
+    const Flag stopped =
+        Without(correction <= Broadcast(1e3) * floor, shrinks);
+    Flag done = Or(stopped, correction <= Broadcast(0.0));
+    if (has_ratio) {
+      const Flag vanishes =
+          correction * correction <= Broadcast(negligible_) * floor * previous_;
+      done = Or(done, And(shrinks, vanishes));
+    }
+    previous_ = correction;
+    stagnant_ = Or(stagnant_, done);
+    return stagnant_;
+  }
+
+ private:
+  double negligible_;
+  Pack previous_;
+  Flag stagnant_;
+};
+
+}  // namespace HWY_NAMESPACE
+}  // namespace emmy
+HWY_AFTER_NAMESPACE();
+
+#endif  // EMMY_INTEGRATE_LANE_PACK_INL_H_
