@@ -84,25 +84,43 @@ class AncfPackStep {
     return {moment_.x * x.a, moment_.y * x.b, moment_.z * x.c};
   }
 
+  // x M + x T, with T = ¼ Δt S, for columns x of the two terms.
+  HWY_INLINE Pack33 TimesStress(const Pack33& x, const Pack3& normal,
+                                const Pack3& shear) const {
+    return {(normal.x * x.a + shear.x * x.b) + shear.z * x.c,
+            (shear.x * x.a + normal.y * x.b) + shear.y * x.c,
+            (shear.z * x.a + shear.y * x.b) + normal.z * x.c};
+  }
+
+  // E₁⁻ᵀ and K for end vectors e₁ and the dual vectors of the mean ones.
+  static HWY_INLINE void SetFrames(const Pack33& end, const Pack33& dual,
+                                   Pack33* to_change, Pack33* turn) {
+    const Pack one = Broadcast(1.0);
+    *to_change = Dual(end);
+    *turn = TransposedTimes(dual, *to_change);
+    turn->a.x = turn->a.x - one;
+    turn->b.y = turn->b.y - one;
+    turn->c.z = turn->c.z - one;
+  }
+
   HWY_INLINE Flag Solve(Flag alive, AncfIncrement* result) {
     const Pack half = Broadcast(0.5);
     const Pack time_step = Broadcast(step_.time_step);
     const Pack half_step = Broadcast(0.5 * step_.time_step);
-    const Pack roundoff = Broadcast(0x1p-53);
-    const Pack size_of_step = Absolute(time_step);
+    const Flag none = Without(alive, alive);
     Pack33 change = time_step * Load33(block_.acceleration.next, lane_);
     Flag active = alive;
-    Flag failed = Without(alive, alive);
+    Flag failed = none;
     PackMonitor strain_monitor(0x1p-6);
     PackMonitor rotation_monitor(0x1p-10);
-    Pack33 to_change;  // E₁⁻ᵀ
-    Pack33 turn;       // K
-    Pack strain_floor = Broadcast(0.0);
-    Pack rotation_floor = strain_floor;
-    Pack settled_below = strain_floor;
-    Pack corrected = strain_floor;  // Since `to_change`.
-    Pack previous = strain_floor;
+    Pack33 to_change = change;  // E₁⁻ᵀ
+    Pack33 turn = change;       // K
+    Pack previous = Broadcast(0.0);
+    Pack corrected = previous;  // Sum of sizes since the frames were made.
+    Flag stale = alive;
     Pack iterations = Load(block_.centre.iterations + lane_);
+    const Flag mass_only =
+        Broadcast(0.0) < Load(block_.mass_dominates + lane_);
     // What lanes that are not alive are given, and do not take.
     *result = {change, change, {change.a, change.a}};
     for (int i = 0; i < kMaxIterations; ++i) {
@@ -127,25 +145,28 @@ class AncfPackStep {
       y.b = y.b + Pack3{shear.x, normal.y, shear.y};
       y.c = y.c + Pack3{shear.z, shear.y, normal.z};
       const Pack3 moment = Antisymmetric(y);
+
       if (i == 0) {
-        const Pack33 end = mean + half * turned;
-        to_change = Dual(end);
-        turn = TransposedTimes(dual, to_change);
-        const Pack one = Broadcast(1.0);
-        turn.a.x = turn.a.x - one;
-        turn.b.y = turn.b.y - one;
-        turn.c.z = turn.c.z - one;
-        const Pack rate_scale = MaxAbsolute(mean_rates);
-        strain_floor = Broadcast(4.0) * roundoff * rate_scale;
-        rotation_floor = roundoff * MaxAbsolute(change);
-        settled_below = Broadcast(0x1p-61) * rate_scale;
+        SetFrames(mean + half * turned, dual, &to_change, &turn);
+      } else if (!None(stale)) {
+        Pack33 new_to_change;
+        Pack33 new_turn;
+        SetFrames(mean + half * turned, dual, &new_to_change, &new_turn);
+        to_change = Choose(stale, new_to_change, to_change);
+        turn = Choose(stale, new_turn, turn);
+        corrected = corrected - OrZero(stale, corrected);
       }
-      const Pack33 guess = TangentSolve(y, moment);
-      const Pack33 rest = y - TimesMoments(turn * guess);
-      Pack33 x = TangentSolve(rest, Antisymmetric(rest));
+      const Pack33 x0 = TangentSolve(y, moment);
+      const Pack33 rest1 = TimesMoments(turn * x0);
+      const Pack33 x1 = x0 - TangentSolve(rest1, Antisymmetric(rest1));
+      const Pack quarter_step = half * half_step;
+      const Pack33 rest2 =
+          TimesMoments(turn * x1) +
+          TimesStress(x1, quarter_step * normal, quarter_step * shear);
+      Pack33 x = x0 - TangentSolve(rest2, Antisymmetric(rest2));
       Pack33 correction = to_change * x;
-      const Flag mass_only =
-          Broadcast(0.0) < Load(block_.mass_dominates + lane_);
+      const Pack solved = MaxAbsolute(x - x1);
+      const Pack solved_before = MaxAbsolute(x1 - x0);
       if (!None(mass_only)) {
         const Pack3 inverse = Load3(block_.inverse_moment, lane_);
         const Pack33 force = mean * y;
@@ -157,15 +178,23 @@ class AncfPackStep {
       change = change - correction;
 
       const Pack size = MaxAbsolute(correction);
-      const Flag strain_done =
-          strain_monitor.Update(size, strain_floor, i > 0);
+      const Pack strain_floor = Broadcast(0x1p-51) * MaxAbsolute(mean_rates);
+      const Pack rotation_floor = Broadcast(0x1p-53) * MaxAbsolute(change);
+      const Pack negligible = Smaller(Broadcast(0x1p-11) * rotation_floor,
+                                      Broadcast(0x1p-7) * strain_floor);
+      corrected = corrected + size;
+      const Pack change_of_frames =
+          Load(block_.second_order + lane_) * corrected;
+      const Flag solved_well =
+          And(solved * (solved_before + solved) <= size * negligible,
+              change_of_frames * size <= negligible);
+      const Flag strain_done = strain_monitor.Update(size, strain_floor, i > 0);
       const Flag rotation_done = rotation_monitor.Update(
           MaxAbsolute(moment) *
               Load(block_.inverse_smallest_moment_sum + lane_),
           rotation_floor, i > 0);
-      corrected = corrected + size;
-      const Flag settled = size_of_step * size * corrected <= settled_below;
-      const Flag done = And(And(strain_done, rotation_done), settled);
+      const Flag done = Or(Without(solved_well, mass_only),
+                           And(strain_done, rotation_done));
       if (!None(And(active, done))) {
         result->rates = Choose(active, change, result->rates);
         result->gradients = Choose(active, turned - half_step * correction,
@@ -180,17 +209,17 @@ class AncfPackStep {
             Choose(active, strain.shear - half_step * shear_change,
                    result->strain.shear);
       }
-      Flag slow = Without(alive, alive);
+      active = Without(active, done);
+      if (None(active)) break;
+      stale = And(active, Broadcast(0x1p-20) < change_of_frames);
       if (i > 0) {
-        slow = And(Broadcast(1e3) * strain_floor < size,
-                   Broadcast(0.3) * previous < size);
+        const Flag slow = And(active, And(Broadcast(1e3) * strain_floor < size,
+                                          Broadcast(0.3) * previous < size));
+        failed = Or(failed, slow);
+        active = Without(active, slow);
+        if (None(active)) break;
       }
       previous = size;
-      active = Without(active, done);
-      slow = And(active, slow);
-      failed = Or(failed, slow);
-      active = Without(active, slow);
-      if (None(active)) break;
     }
     Store(iterations, block_.centre.iterations + lane_);
     return Without(Without(alive, failed), active);

@@ -20,6 +20,7 @@ struct BatchStep {
   double time_step = 0.0;          // Δt
   double inverse_time_step = 0.0;  // 1/Δt
   double velocity_increment[3] = {0.0, 0.0, 0.0};  // Δt g
+  bool has_gravity = false;
 };
 
 // A compensated vector: (SUM-2).
@@ -44,6 +45,8 @@ struct CentreLanes {
   // 1 for a body that is stepped, 0 for one that has failed and for padding.
   alignas(64) Lanes alive;
   Lanes iterations;  // Done so far.
+  Lanes motion[3];   // Without gravity: Δt v̄ and its rounding error.
+  Lanes motion_error[3];
 };
 
 // ANCF bodies in principal axes.
@@ -63,6 +66,7 @@ struct AncfBlock {
   Lanes shear_second[3];                // Mᵐ/determinant
   Lanes shear_coupling[3];              // c/determinant
   Lanes inverse_smallest_moment_sum;    // Of two Mⁱⁱ.
+  Lanes second_order;                   // Δt (1 + max c/min M)
   Lanes mass_dominates;                 // 1: M alone is the tangent.
 };
 

@@ -20,6 +20,9 @@ namespace HWY_NAMESPACE {
 template <typename PackStep, typename Block>
 HWY_INLINE void Advance(const BatchStep& step, int64_t num_steps, Block* block,
                         LaneFallback* fallback) {
+  for (int lane = 0; lane < kBatchLanes; lane += kPackLanes) {
+    PrepareCentre(step, lane, &block->centre);
+  }
   for (int64_t i = 0; i < num_steps; ++i) {
     for (int lane = 0; lane < kBatchLanes; lane += kPackLanes) {
       const Flag left = PackStep(step, lane, block).Advance();

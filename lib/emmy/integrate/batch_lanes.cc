@@ -1,5 +1,6 @@
 #include "emmy/integrate/batch_lanes.h"
 
+#include <cmath>
 #include <cstddef>
 
 #include "emmy/base/compensated_sum.h"
@@ -121,6 +122,8 @@ void SetConstants(const AncfRigidBody& body, const AncfBodyStep& step,
     block->shear_coupling[k][lane] = c(3 + i) / determinant;
   }
   block->inverse_smallest_moment_sum[lane] = 1.0 / step.smallest_moment_sum();
+  block->second_order[lane] =
+      std::abs(time_step) * (1.0 + c.maxCoeff() / moment.minCoeff());
   block->mass_dominates[lane] = step.mass_dominates() ? 1.0 : 0.0;
 }
 

@@ -202,6 +202,7 @@ absl::StatusOr<BodyBatch> BodyBatch::Create(const Model& model,
   for (int i = 0; i < 3; ++i) {
     data->step.velocity_increment[i] = options.time_step * model.gravity()(i);
   }
+  data->step.has_gravity = model.gravity() != Vector3d::Zero();
   data->tilted_ancf.principal = false;
   data->tilted_conventional.principal = false;
   data->ancf_steps.resize(model.bodies().size());

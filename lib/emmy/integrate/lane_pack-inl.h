@@ -209,26 +209,41 @@ HWY_INLINE PackSum TwoProduct(Pack a, Pack b) {  // (SUM-3)
               a_low * b_low};
 }
 
+// Δt v̄ of a constant velocity, the same in every step.
+HWY_INLINE void PrepareCentre(const BatchStep& step, int lane,
+                              CentreLanes* centre) {
+  for (size_t i = 0; i < 3; ++i) {
+    const Pack mean = Load(centre->velocity.value[i] + lane) +
+                      Load(centre->velocity.compensation[i] + lane);
+    const PackSum motion = TwoProduct(Broadcast(step.time_step), mean);
+    Store(motion.sum, centre->motion[i] + lane);
+    Store(motion.error, centre->motion_error[i] + lane);
+  }
+}
+
 // The centre of mass under constant gravity, in closed form.
 template <bool kAll>
 HWY_INLINE void AdvanceCentre(const BatchStep& step, const Writer<kAll>& writer,
                               int lane, CentreLanes* centre) {
-  const Pack time_step = Broadcast(step.time_step);
-  for (int i = 0; i < 3; ++i) {
+#pragma GCC unroll 3
+  for (size_t i = 0; i < 3; ++i) {
+    PackSum motion = {Load(centre->motion[i] + lane),
+                      Load(centre->motion_error[i] + lane)};
+    if (step.has_gravity) {
+      double* const v = centre->velocity.value[i] + lane;
+      double* const vc = centre->velocity.compensation[i] + lane;
+      const Pack change = Broadcast(step.velocity_increment[i]);
+      motion = TwoProduct(Broadcast(step.time_step),
+                          Load(v) + (Load(vc) + Broadcast(0.5) * change));
+      writer.Add(change, v, vc);
+    }
     double* const x = centre->position.value[i] + lane;
     double* const xc = centre->position.compensation[i] + lane;
-    double* const v = centre->velocity.value[i] + lane;
-    double* const vc = centre->velocity.compensation[i] + lane;
-    const Pack change = Broadcast(step.velocity_increment[i]);
-    const Pack mean =
-        Load(v) + (Load(vc) + Broadcast(0.5) * change);
-    const PackSum product = TwoProduct(time_step, mean);
-    const PackSum first = TwoSum(Load(x), product.sum);
+    const PackSum first = TwoSum(Load(x), motion.sum);
     const PackSum second =
-        TwoSum(first.sum, first.error + (Load(xc) + product.error));
+        TwoSum(first.sum, first.error + (Load(xc) + motion.error));
     writer.Write(second.sum, x);
     writer.Write(second.error, xc);
-    writer.Add(change, v, vc);
   }
 }
 
