@@ -28,9 +28,9 @@ inline ModelDescription MixedBodies(int count, Formulation formulation,
         penalty > 0.0 ? penalty : std::pow(10.0, 6 + 2 * (i % 5));
     RigidBodyDescription body = PaperBox(formulation, alpha);
     body.name = "body_" + std::to_string(i);
-    body.inertia = BoxInertia{.size = Vector3d(3.0, 2.0, 1.0) +
-                                      random.Vector(0.5),
-                              .density = 2700.0};
+    body.inertia =
+        BoxInertia{.size = Vector3d(3.0, 2.0, 1.0) + random.Vector(0.5),
+                   .density = 2700.0};
     body.orientation = RotationVector{random.Vector(1.0)};
     body.position = random.Vector(1.0);
     body.velocity = random.Vector(0.3);

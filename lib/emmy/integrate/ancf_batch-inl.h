@@ -46,8 +46,7 @@ class AncfPackStep {
 
   // Advances the lanes that are alive and converge; returns the others.
   HWY_INLINE Flag Advance() {
-    const Flag alive =
-        Broadcast(0.0) < Load(block_.centre.alive + lane_);
+    const Flag alive = Broadcast(0.0) < Load(block_.centre.alive + lane_);
     AncfIncrement increment;
     const Flag done = Solve(alive, &increment);
     if (All(done)) {
@@ -119,8 +118,7 @@ class AncfPackStep {
     Pack corrected = previous;  // Sum of sizes since the frames were made.
     Flag stale = alive;
     Pack iterations = Load(block_.centre.iterations + lane_);
-    const Flag mass_only =
-        Broadcast(0.0) < Load(block_.mass_dominates + lane_);
+    const Flag mass_only = Broadcast(0.0) < Load(block_.mass_dominates + lane_);
     // What lanes that are not alive are given, and do not take.
     *result = {change, change, {change.a, change.a}};
     for (int i = 0; i < kMaxIterations; ++i) {
@@ -193,18 +191,18 @@ class AncfPackStep {
           MaxAbsolute(moment) *
               Load(block_.inverse_smallest_moment_sum + lane_),
           rotation_floor, i > 0);
-      const Flag done = Or(Without(solved_well, mass_only),
-                           And(strain_done, rotation_done));
+      Flag done =
+          Or(Without(solved_well, mass_only), And(strain_done, rotation_done));
       if (!None(And(active, done))) {
+        done = And(done, IsFinite((change.a + change.b) + change.c));
         result->rates = Choose(active, change, result->rates);
-        result->gradients = Choose(active, turned - half_step * correction,
-                                   result->gradients);
+        result->gradients =
+            Choose(active, turned - half_step * correction, result->gradients);
         const Pack3 shear_change = {x.a.y + x.b.x, x.b.z + x.c.y,
                                     x.c.x + x.a.z};
-        result->strain.normal =
-            Choose(active,
-                   strain.normal - half_step * Pack3{x.a.x, x.b.y, x.c.z},
-                   result->strain.normal);
+        result->strain.normal = Choose(
+            active, strain.normal - half_step * Pack3{x.a.x, x.b.y, x.c.z},
+            result->strain.normal);
         result->strain.shear =
             Choose(active, strain.shear - half_step * shear_change,
                    result->strain.shear);
@@ -227,10 +225,9 @@ class AncfPackStep {
 
   // Δt b ε̄ for three of the strains.
   HWY_INLINE Pack3 Impulse(const Pack3& increment, int first) const {
-    const Pack3 mean =
-        Load3(block_.strain.value + first, lane_) +
-        (Load3(block_.strain.compensation + first, lane_) +
-         Broadcast(0.5) * increment);
+    const Pack3 mean = Load3(block_.strain.value + first, lane_) +
+                       (Load3(block_.strain.compensation + first, lane_) +
+                        Broadcast(0.5) * increment);
     const Pack3 impulse = Load3(block_.impulse + first, lane_);
     return {impulse.x * mean.x, impulse.y * mean.y, impulse.z * mean.z};
   }

@@ -17,8 +17,8 @@ using Lanes = double[kBatchLanes];
 
 // What all bodies of a batch have in common.
 struct BatchStep {
-  double time_step = 0.0;          // Δt
-  double inverse_time_step = 0.0;  // 1/Δt
+  double time_step = 0.0;                          // Δt
+  double inverse_time_step = 0.0;                  // 1/Δt
   double velocity_increment[3] = {0.0, 0.0, 0.0};  // Δt g
   bool has_gravity = false;
 };
@@ -58,16 +58,16 @@ struct AncfBlock {
   ExtrapolationLanes<9> acceleration;
 
   // Constants of bodies and time step, c as in (EM-6).
-  alignas(64) Lanes moment[3];          // Mⁱⁱ
-  Lanes inverse_moment[3];              // 1/Mⁱⁱ
-  Lanes impulse[6];                     // Δt bₖ
-  Lanes normal_inverse[3];              // 1/(Mⁱⁱ + cᵢ)
-  Lanes shear_first[3];                 // Mⁿ/determinant
-  Lanes shear_second[3];                // Mᵐ/determinant
-  Lanes shear_coupling[3];              // c/determinant
-  Lanes inverse_smallest_moment_sum;    // Of two Mⁱⁱ.
-  Lanes second_order;                   // Δt (1 + max c/min M)
-  Lanes mass_dominates;                 // 1: M alone is the tangent.
+  alignas(64) Lanes moment[3];        // Mⁱⁱ
+  Lanes inverse_moment[3];            // 1/Mⁱⁱ
+  Lanes impulse[6];                   // Δt bₖ
+  Lanes normal_inverse[3];            // 1/(Mⁱⁱ + cᵢ)
+  Lanes shear_first[3];               // Mⁿ/determinant
+  Lanes shear_second[3];              // Mᵐ/determinant
+  Lanes shear_coupling[3];            // c/determinant
+  Lanes inverse_smallest_moment_sum;  // Of two Mⁱⁱ.
+  Lanes second_order;                 // Δt (1 + max c/min M)
+  Lanes mass_dominates;               // 1: M alone is the tangent.
 };
 
 // Conventional bodies in principal axes.
@@ -79,7 +79,7 @@ struct ConventionalBlock {
 
   alignas(64) Lanes inertia[3];  // Jᵢ
   Lanes inverse_inertia[3];
-  Lanes coupling[3];             // ½ Δt (J_k − J_j)/Jᵢ, i, j, k cyclic.
+  Lanes coupling[3];  // ½ Δt (J_k − J_j)/Jᵢ, i, j, k cyclic.
   Lanes inverse_smallest_inertia;
 };
 

@@ -74,9 +74,8 @@ void Add(const double* increment, int lane, CompensatedLanes<kEntries>* to) {
 void AdvanceCentre(const BatchStep& step, int lane, CentreLanes* centre) {
   for (size_t i = 0; i < 3; ++i) {
     const double change = step.velocity_increment[i];
-    const double mean =
-        centre->velocity.value[i][lane] +
-        (centre->velocity.compensation[i][lane] + 0.5 * change);
+    const double mean = centre->velocity.value[i][lane] +
+                        (centre->velocity.compensation[i][lane] + 0.5 * change);
     const SumAndError product = TwoProduct(step.time_step, mean);
     AddCompensated(product.sum, product.error, centre->position.value[i][lane],
                    centre->position.compensation[i][lane]);
@@ -92,10 +91,9 @@ void Predict(const BatchStep& step, const double* change, int lane,
   extrapolation.SetZero(kSize);
   Store(*kept, lane, 0, &extrapolation);
   Extrapolation::Errors errors{};
-  extrapolation.Add(0,
-                    Eigen::Map<const VectorXd>(change, kSize) *
-                        step.inverse_time_step,
-                    &errors);
+  extrapolation.Add(
+      0, Eigen::Map<const VectorXd>(change, kSize) * step.inverse_time_step,
+      &errors);
   extrapolation.Predict(0, kSize, Extrapolation::BestOrder(errors));
   Load(extrapolation, 0, lane, kept);
 }

@@ -148,8 +148,8 @@ class OrdinaryStep : public LaneFallback {
 }  // namespace
 
 template <typename Block>
-void BodyBatch::Data::Run(int64_t num_steps, size_t thread,
-                          Group<Block>* group, Work* work) {
+void BodyBatch::Data::Run(int64_t num_steps, size_t thread, Group<Block>* group,
+                          Work* work) {
   const size_t num_blocks = group->blocks.size();
   const auto num_threads = static_cast<size_t>(options.num_threads);
   const size_t end = (thread + 1) * num_blocks / num_threads;
@@ -224,8 +224,8 @@ void BodyBatch::Load(const State& state) {
   Data& data = *data_;
   const Model& model = *data.model;
   EMMY_CHECK(state.position.value.size() == model.num_positions(),
-             state.position.value.size() << " positions, not "
-                                         << model.num_positions());
+             state.position.value.size()
+                 << " positions, not " << model.num_positions());
   data.step_number = state.step;
   data.time = state.time;
   data.is_loaded = true;
@@ -290,8 +290,8 @@ void BodyBatch::Store(State* state) const {
   Data& data = *data_;
   EMMY_CHECK(data.is_loaded, "Load before Store");
   EMMY_CHECK(state->position.value.size() == data.model->num_positions(),
-             state->position.value.size() << " positions, not "
-                                          << data.model->num_positions());
+             state->position.value.size()
+                 << " positions, not " << data.model->num_positions());
   state->step = data.step_number;
   state->time = data.time;
   data.ForEachGroup([&](auto& group) {

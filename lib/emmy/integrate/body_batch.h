@@ -41,8 +41,8 @@ struct BatchFailure {
 };
 
 struct [[nodiscard]] BatchReport {
-  int64_t iterations = 0;      // Sum over bodies and steps.
-  int64_t ordinary_steps = 0;  // Taken by the steps of one body.
+  int64_t iterations = 0;              // Sum over bodies and steps.
+  int64_t ordinary_steps = 0;          // Taken by the steps of one body.
   std::vector<BatchFailure> failures;  // In the order of the model's bodies.
   bool ok() const { return failures.empty(); }
 };

@@ -85,20 +85,19 @@ class ConventionalPackStep {
           Times(inertia_, change) + time_step * Cross(mean, momentum);
       if (i == 0) {
         first_mean = mean;
-        floor = Broadcast(0x1p-53) *
-                (MaxAbsolute(change) +
-                 Absolute(time_step) *
-                     (MaxAbsolute(mean) * MaxAbsolute(momentum)) *
-                     Load(block_.inverse_smallest_inertia + lane_));
+        floor =
+            Broadcast(0x1p-53) *
+            (MaxAbsolute(change) +
+             Absolute(time_step) * (MaxAbsolute(mean) * MaxAbsolute(momentum)) *
+                 Load(block_.inverse_smallest_inertia + lane_));
       }
       const Pack3 scaled = Times(inverse, residual);
-      const Pack3 once =
-          scaled - OffDiagonal(coupling, first_mean, scaled);
-      const Pack3 correction =
-          scaled - OffDiagonal(coupling, first_mean, once);
+      const Pack3 once = scaled - OffDiagonal(coupling, first_mean, scaled);
+      const Pack3 correction = scaled - OffDiagonal(coupling, first_mean, once);
       change = Choose(active, change - correction, change);
       const Pack size = MaxAbsolute(correction);
-      const Flag done = monitor.Update(size, floor, i > 0);
+      const Flag done =
+          And(monitor.Update(size, floor, i > 0), IsFinite(change));
       Flag slow = Without(alive, alive);
       if (i > 0) {
         slow = And(Broadcast(1e3) * floor < size,

@@ -46,8 +46,8 @@ HWY_INLINE Pack operator*(Pack a, Pack b) { return {hn::Mul(a.v, b.v)}; }
 HWY_INLINE Pack operator/(Pack a, Pack b) { return {hn::Div(a.v, b.v)}; }
 HWY_INLINE Pack SquareRoot(Pack a) { return {hn::Sqrt(a.v)}; }
 HWY_INLINE Pack Absolute(Pack a) { return {hn::Abs(a.v)}; }
-// Which of the two is returned if one is NaN depends on the instruction set;
-// such a lane never converges, and so leaves no trace.
+// Which of the two is returned if one is NaN depends on the instruction set, so
+// that a NaN may go unseen: see IsFinite.
 HWY_INLINE Pack Larger(Pack a, Pack b) { return {hn::Max(a.v, b.v)}; }
 HWY_INLINE Pack Smaller(Pack a, Pack b) { return {hn::Min(a.v, b.v)}; }
 
@@ -83,6 +83,11 @@ HWY_INLINE Pack Dot(const Pack3& a, const Pack3& b) {
 }
 HWY_INLINE Pack3 Cross(const Pack3& a, const Pack3& b) {
   return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+// False if an entry is NaN or infinite, or the sum overflows.
+HWY_INLINE Flag IsFinite(const Pack3& a) {
+  const Pack sum = (a.x + a.y) + a.z;
+  return sum - sum <= Broadcast(0.0);
 }
 HWY_INLINE Pack MaxAbsolute(const Pack3& a) {
   return Larger(Larger(Absolute(a.x), Absolute(a.y)), Absolute(a.z));
@@ -284,10 +289,10 @@ HWY_INLINE void Predict(const Pack3 (&acceleration)[kVectors],
   for (size_t i = 0; i < 3 * kVectors; ++i) {
     const Pack3& vector = acceleration[i / 3];
     const Pack value = i % 3 == 0 ? vector.x : i % 3 == 1 ? vector.y : vector.z;
-    writer.Write(
-        ((OrZero(third, d3[i]) + OrZero(second, d2[i])) + OrZero(first, d1[i])) +
-            value,
-        kept->next[i] + lane);
+    writer.Write(((OrZero(third, d3[i]) + OrZero(second, d2[i])) +
+                  OrZero(first, d1[i])) +
+                     value,
+                 kept->next[i] + lane);
   }
 }
 
@@ -301,8 +306,7 @@ class PackMonitor {
 
   HWY_INLINE Flag Update(Pack correction, Pack floor, bool has_ratio) {
     const Flag shrinks = correction < Broadcast(0.5) * previous_;
-    const Flag stopped =
-        Without(correction <= Broadcast(1e3) * floor, shrinks);
+    const Flag stopped = Without(correction <= Broadcast(1e3) * floor, shrinks);
     Flag done = Or(stopped, correction <= Broadcast(0.0));
     if (has_ratio) {
       const Flag vanishes =
