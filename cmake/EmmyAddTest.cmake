@@ -9,7 +9,7 @@ function(_emmy_set_up_test target)
   set_target_properties(${target} PROPERTIES CXX_EXTENSIONS OFF)
   target_include_directories(${target} PRIVATE "${PROJECT_SOURCE_DIR}")
   target_link_libraries(${target} PRIVATE
-    emmy::emmy emmy_verification emmy_warnings GTest::gmock_main)
+    emmy emmy_verification emmy_warnings GTest::gmock_main)
   # -Wextra asks to name every field of a designated initialiser; a test that
   # sets only the field it is about is clearer.
   target_compile_options(${target} PRIVATE -Wno-missing-field-initializers)

@@ -48,7 +48,7 @@ int Main(int argc, char** argv) {
   emmy run --help                                more on a command
 
 Exit status: 0 done; 1 a check failed or the computation could not go on;
-2 bad input or usage, nothing written.)");
+2 bad input or usage, nothing written; 3 stopped by Ctrl-C or SIGTERM.)");
   // The program's name is what a person types, not where this build put it.
   std::vector<std::string> command_line = {"emmy"};
   for (int i = 1; i < argc; ++i) command_line.emplace_back(argv[i]);

@@ -13,7 +13,8 @@ const std::vector<Claim>& AllClaims() {
   static const std::vector<Claim>* const claims = [] {
     auto* all = new std::vector<Claim>;
     for (const auto& group :
-         {ConservationClaims, GrowthClaims, LargeStepClaims, PenaltyClaims,
+         {KinematicsClaims, LawClaims, ConservationClaims, SymmetryClaims,
+          VibrationClaims, GrowthClaims, LargeStepClaims, PenaltyClaims,
           AngularVelocityClaims, OrderClaims, CompositionClaims, ExternalClaims,
           ExternalStructureClaims, StructureClaims, BaselineClaims,
           FigureClaims}) {

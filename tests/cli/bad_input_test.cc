@@ -97,6 +97,16 @@ INSTANTIATE_TEST_SUITE_P(
                 "box.json: /rigid_bodies/0/inertia/tensor: second moments "
                 "tr(J)/2 - J must be positive definite [kg m^2], got the "
                 "principal values (0, 1, 1)"},
+        Mistake{"SizesTooSmallTogether", "[3, 2, 1]", "[1e-120, 1e-120, 1]",
+                "box.json: /rigid_bodies/0/box: must be a body with mass, "
+                "volume and second moments >= 1e-290 [SI], got 2.7e-237 kg, "
+                "1e-240 m^3 and 0 kg m^2"},
+        Mistake{"ControlCharacterInAName", R"("name": "box",
+      "box")",
+                R"("name": "b\u0007\nx",
+      "box")",
+                "box.json: /rigid_bodies/0/name: must be a name without "
+                "control characters, got \"b\\u0007\\u000ax\""},
         Mistake{"NumbersTooLargeTogether", "[3, 2, 1]", "[3, 2e300, 1e300]",
                 "box.json: energy and momentum at the start must be finite "
                 "numbers: a mass, length, stiffness or velocity is too large"}),

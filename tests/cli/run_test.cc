@@ -139,7 +139,7 @@ std::string RunUntil(const std::string& condition) {
 
 TEST_F(RunTest, AnInterruptEndsTheRunAfterAWholeRow) {
   const ProgramResult result = Shell(RunUntil("[ -s out/history.csv ]"));
-  EXPECT_EQ(result.exit_status, 1);
+  EXPECT_EQ(result.exit_status, 3);
   EXPECT_THAT(result.err, StartsWith("box.json: interrupted after step "));
   const json summary = json::parse(Read("out/summary.json"));
   EXPECT_EQ(summary["status"], "interrupted");

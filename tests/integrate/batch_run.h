@@ -9,6 +9,7 @@
 #include <string>
 #include <utility>
 
+#include "emmy/diagnostics/invariants.h"
 #include "emmy/integrate/body_batch.h"
 #include "emmy/model/model_builder.h"
 #include "tests/support/paper_box.h"
@@ -86,6 +87,30 @@ inline State StateAfter(const BuiltModel& built, int num_steps,
   State state = built.state;
   batch.Store(&state);
   return state;
+}
+
+// One body's part of `state`, as the state of a model of this body alone.
+inline void CopyBody(const ModelBody& body, const State& state, State* alone) {
+  const auto copy = [](const CompensatedVector& from, Eigen::Index offset,
+                       CompensatedVector* to) {
+    to->value = from.value.segment(offset, to->value.size());
+    to->compensation =
+        from.compensation.segment(offset, to->compensation.size());
+  };
+  copy(state.position, body.position_offset, &alone->position);
+  copy(state.velocity, body.velocity_offset, &alone->velocity);
+  if (alone->strain.value.size() > 0) {
+    copy(state.strain, body.strain_offset, &alone->strain);
+  }
+}
+
+inline DoubleDouble EnergyOfBody(const ModelDescription& description,
+                                 const BuiltModel& all, size_t index,
+                                 const State& state) {
+  BuiltModel alone =
+      BuildModel(ModelOf(description.rigid_bodies[index])).value();
+  CopyBody(all.model.bodies()[index], state, &alone.state);
+  return MeasureInvariants(alone.model, alone.state).TotalEnergy();
 }
 
 }  // namespace emmy

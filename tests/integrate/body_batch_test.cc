@@ -12,6 +12,7 @@
 
 #include "emmy/diagnostics/invariant_monitor.h"
 #include "emmy/integrate/energy_momentum.h"
+#include "tests/contract/roundoff_growth.h"
 #include "tests/integrate/batch_run.h"
 #include "tests/support/roundoff_bound.h"
 #include "tests/support/test_run.h"
@@ -43,26 +44,46 @@ void ExpectSameBody(const ModelBody& a, const State& state_a,
       << b.name;
 }
 
+// 0: all instruction sets again.
+void Choose(int64_t target) {
+  hwy::SetSupportedTargetsForTest(target);
+  hwy::GetChosenTarget().Update(hwy::SupportedTargets());
+}
+
+constexpr int64_t kWithoutFusedMultiplyAdd =
+    HWY_SSE4 | HWY_SSSE3 | HWY_EMU128 | HWY_SCALAR | HWY_WASM;
+
+std::vector<int64_t> TargetsWhere(bool fused) {
+  std::vector<int64_t> targets;
+  for (const int64_t target : hwy::SupportedAndGeneratedTargets()) {
+    if (((target & kWithoutFusedMultiplyAdd) == 0) == fused) {
+      targets.push_back(target);
+    }
+  }
+  return targets;
+}
+
+std::vector<int64_t> FusedTargets() { return TargetsWhere(true); }
+std::vector<int64_t> OtherTargets() { return TargetsWhere(false); }
+
 class BodyBatchTest : public ::testing::Test {
  protected:
-  // All instruction sets again, whatever a test chose.
   ~BodyBatchTest() override { Choose(0); }
-
-  static void Choose(int64_t target) {
-    hwy::SetSupportedTargetsForTest(target);
-    hwy::GetChosenTarget().Update(hwy::SupportedTargets());
-  }
 };
 
+// Of those that round a product before they add to it, and of the others.
 TEST_F(BodyBatchTest, EveryInstructionSetGivesTheSameBits) {
-  const std::vector<int64_t> targets = hwy::SupportedAndGeneratedTargets();
   const BuiltModel built = BuildModel(AllKinds()).value();
-  const State expected = StateAfter(built, 300, {.time_step = kStep});
-  for (const int64_t target : targets) {
-    Choose(target);
-    EXPECT_TRUE(
-        SameState(StateAfter(built, 300, {.time_step = kStep}), expected))
-        << hwy::TargetName(target);
+  for (const std::vector<int64_t>& targets : {FusedTargets(), OtherTargets()}) {
+    if (targets.empty()) continue;
+    Choose(targets[0]);
+    const State expected = StateAfter(built, 300, {.time_step = kStep});
+    for (const int64_t target : targets) {
+      Choose(target);
+      EXPECT_TRUE(
+          SameState(StateAfter(built, 300, {.time_step = kStep}), expected))
+          << hwy::TargetName(target);
+    }
     Choose(0);
   }
 }
@@ -188,6 +209,14 @@ TEST_P(BatchAgreementTest, LeadsToTheStepOfOneBody) {
   EXPECT_LE(LargestDifference(GetParam()), RoundoffBound(32, 1.0));
 }
 
+TEST_P(BatchAgreementTest, LeadsToItWithoutFusedMultiplyAddToo) {
+  const std::vector<int64_t> targets = OtherTargets();
+  if (targets.empty()) GTEST_SKIP() << "not on this processor";
+  Choose(targets[0]);
+  EXPECT_LE(LargestDifference(GetParam()), RoundoffBound(32, 1.0));
+  Choose(0);
+}
+
 INSTANTIATE_TEST_SUITE_P(Cases, BatchAgreementTest,
                          ::testing::ValuesIn(Agreements()),
                          [](const auto& c) { return c.param.name; });
@@ -212,17 +241,8 @@ void ExpectKept(const ModelDescription& description, int64_t num_steps) {
     ASSERT_TRUE(batch.Step(1000).ok());
     batch.Store(&state);
     for (size_t k = 0; k < alone.size(); ++k) {
-      const ModelBody& body = built.model.bodies()[k];
       State& one = alone[k].state;
-      const auto copy = [](const CompensatedVector& from, Eigen::Index offset,
-                           CompensatedVector* to) {
-        to->value = from.value.segment(offset, to->value.size());
-        to->compensation =
-            from.compensation.segment(offset, to->compensation.size());
-      };
-      copy(state.position, body.position_offset, &one.position);
-      copy(state.velocity, body.velocity_offset, &one.velocity);
-      copy(state.strain, body.strain_offset, &one.strain);
+      CopyBody(built.model.bodies()[k], state, &one);
       monitors[k].Observe(one);
     }
   }
@@ -246,6 +266,55 @@ INSTANTIATE_TEST_SUITE_P(Exponents, BatchInvariantsTest,
 
 TEST_F(BodyBatchTest, KeepsInvariantsOfConventionalBodies) {
   ExpectKept(MixedBodies(11, Formulation::kConventional), 100000);
+}
+
+// Energy errors of 32 boxes that differ in the last place of their angular
+// velocity: a random walk, as of the ordinary step (roundoff_growth_test.cc).
+GrowthLaw GrowthOf(Formulation formulation, double penalty, Start start) {
+  constexpr int kBodies = 32;
+  ModelDescription description;
+  for (int i = 0; i < kBodies; ++i) {
+    RigidBodyDescription box = ShiftedBox(formulation, penalty, i);
+    box.name = "box_" + std::to_string(i);
+    if (formulation == Formulation::kAncf) box.start = start;
+    description.rigid_bodies.push_back(box);
+  }
+  const BuiltModel built = BuildModel(description).value();
+  BodyBatch batch = MakeBatch(built, {.time_step = kStep});
+  State state = built.state;
+  std::vector<DoubleDouble> start_energies;
+  for (size_t i = 0; i < kBodies; ++i) {
+    start_energies.push_back(EnergyOfBody(description, built, i, state));
+  }
+  const std::vector<int64_t> steps = NumbersOfSteps(100000);
+  std::vector<std::vector<double>> errors(steps.size());
+  int64_t done = 0;
+  for (size_t k = 0; k < steps.size(); ++k) {
+    EXPECT_TRUE(batch.Step(steps[k] - done).ok());
+    done = steps[k];
+    batch.Store(&state);
+    for (size_t i = 0; i < kBodies; ++i) {
+      const DoubleDouble energy = EnergyOfBody(description, built, i, state);
+      errors[k].push_back((energy - start_energies[i]).ToDouble() /
+                          start_energies[i].ToDouble());
+    }
+  }
+  return FitGrowthLaw(steps, errors);
+}
+
+TEST_F(BodyBatchTest, EnergyErrorsOfAncfBodiesAreRandomWalks) {
+  for (const Start start : {Start::kUndeformed, Start::kRelaxed}) {
+    const GrowthLaw law = GrowthOf(Formulation::kAncf, 1e10, start);
+    EXPECT_TRUE(law.IsRandomWalk()) << law;
+    EXPECT_LT(law.sizes.back(), 2.5e-16);  // As roundoff_growth_test.cc.
+  }
+}
+
+TEST_F(BodyBatchTest, EnergyErrorsOfConventionalBodiesAreRandomWalks) {
+  const GrowthLaw law =
+      GrowthOf(Formulation::kConventional, 0.0, Start::kUndeformed);
+  EXPECT_TRUE(law.IsRandomWalk()) << law;
+  EXPECT_LT(law.sizes.back(), 2.5e-16);
 }
 
 TEST_F(BodyBatchTest, KeepsTheEnergyOfFallingBodies) {

@@ -72,7 +72,8 @@ class CompositionTest : public ::testing::TestWithParam<int> {
 TEST_P(CompositionTest, MeetsTheOrderConditionsToRoundOff) {
   Series series = {{"", 1.0L}};
   for (const double h : SubSteps(order(), 1.0)) {
-    series = Product(series, Exponential(h, order()), order());
+    series = Product(series, Exponential(static_cast<long double>(h), order()),
+                     order());
   }
   for (const auto& [word, value] : series) {
     long double expected = 0.0L;
@@ -88,7 +89,9 @@ TEST_P(CompositionTest, MeetsTheOrderConditionsToRoundOff) {
 TEST_P(CompositionTest, DoesNotMeetTheConditionsOfTheNextOrder) {
   Series series = {{"", 1.0L}};
   for (const double h : SubSteps(order(), 1.0)) {
-    series = Product(series, Exponential(h, order() + 1), order() + 1);
+    series =
+        Product(series, Exponential(static_cast<long double>(h), order() + 1),
+                order() + 1);
   }
   long double largest = 0.0L;
   for (const auto& [word, value] : series) {
@@ -104,7 +107,7 @@ TEST_P(CompositionTest, PartsAreAPalindromeOfPairsThatAddUpExactly) {
     // Of 64 bits, which hold the sums.
     long double sum = 0.0L;
     for (size_t i = 0; i < parts.size(); ++i) {
-      sum += parts[i];
+      sum += static_cast<long double>(parts[i]);
       EXPECT_EQ(parts[i], parts[parts.size() - 1 - i]);
       EXPECT_EQ(parts[i], parts[i ^ 1U]);
     }

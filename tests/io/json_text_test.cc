@@ -98,7 +98,7 @@ TEST(ParseJsonTest, ShortensALongKeyInAMessage) {
 
 TEST(ParseJsonTest, RejectsATextAboveTheSizeLimit) {
   EXPECT_EQ(ParseError(std::string(kMaxJsonBytes + 1, ' ')),
-            "larger than 64 MiB");
+            "larger than 256 MiB");
 }
 
 TEST(FormatJsonTest, KeepsOnOneLineWhatFits) {
@@ -139,6 +139,12 @@ TEST(ShortenTest, CutsBetweenCharacters) {
 
 TEST(PointerPartTest, EscapesSlashTildeAndControlCharacters) {
   EXPECT_EQ(PointerPart("a/b~c\n"), "/a~1b~0c\\n");
+}
+
+// Found by tools/fuzz: JSON text may hold U+007F unescaped.
+TEST(ShowJsonTest, LeavesNoControlCharacter) {
+  EXPECT_EQ(ShowJson("a\x7F\n"), "\"a\\u007f\\n\"");
+  EXPECT_EQ(PointerPart("a\x7F\n"), "/a\\u007f\\n");
 }
 
 }  // namespace

@@ -30,7 +30,9 @@ TEST_P(PolynomialTest, IsPredictedExactlyOnceThereAreEnoughValues) {
   for (int n = 0; n < 12; ++n) {
     const double next = Advance(value(n), &sequence);
     // A zero difference of a higher order may come first, by one value.
-    if (n > degree + 1) EXPECT_EQ(next, value(n + 1)) << n;
+    if (n > degree + 1) {
+      EXPECT_EQ(next, value(n + 1)) << n;
+    }
   }
 }
 

@@ -34,7 +34,7 @@ TEST(StagnationMonitorTest, ShrinkingNearTheFloorGoesOn) {
 
 TEST(StagnationMonitorTest, GainingLessThanABitNearTheFloorIsStagnation) {
   StagnationMonitor monitor;
-  EXPECT_FALSE(monitor.Update(1e-10, kFloor));
+  EXPECT_FALSE(monitor.Update(1e-15, kFloor));
   EXPECT_FALSE(monitor.Update(2e-16, kFloor));
   EXPECT_TRUE(monitor.Update(1.5e-16, kFloor));
 }
@@ -48,8 +48,21 @@ TEST(StagnationMonitorTest, ACorrectionThatLeavesLessThanRoundingIsTheLast) {
   EXPECT_TRUE(monitor.Update(1e-18, kFloor));
 }
 
+// Ratios 1e-10 and 0.45: the first correction hid a slow part.
+TEST(StagnationMonitorTest, OneFastRatioDoesNotHideASlowPart) {
+  StagnationMonitor monitor;
+  double correction = 1e-3;
+  EXPECT_FALSE(monitor.Update(correction, kFloor));
+  correction = 1e-13;
+  for (int i = 0; i < 8; ++i) {
+    EXPECT_FALSE(monitor.Update(correction, kFloor)) << correction;
+    correction *= 0.45;
+  }
+}
+
 TEST(StagnationMonitorTest, HowMuchMayBeLeftIsSaidAtTheStart) {
   StagnationMonitor monitor(/*negligible=*/0x1p-6);
+  EXPECT_FALSE(monitor.Update(1e-7, kFloor));
   EXPECT_FALSE(monitor.Update(1e-11, kFloor));
   EXPECT_TRUE(monitor.Update(1e-15, kFloor));
 }

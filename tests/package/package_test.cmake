@@ -1,5 +1,8 @@
 # Run with -P; the arguments are in CMakeLists.txt beside this file.
 file(REMOVE_RECURSE "${SCRATCH}")
+file(MAKE_DIRECTORY "${SCRATCH}")
+set(prefix "${SCRATCH}/prefix")
+set(case "${SOURCE}/examples/paper_box.json")
 
 function(run)
   execute_process(COMMAND ${ARGN}
@@ -10,29 +13,107 @@ function(run)
   set(output "${output}" PARENT_SCOPE)
 endfunction()
 
+function(run_program)
+  run(${ARGN})
+  if(NOT output MATCHES "^emmy [0-9]+\\.[0-9]+\\.[0-9]+\n")
+    message(FATAL_ERROR "${ARGN} prints: ${output}")
+  endif()
+endfunction()
+
+# The installed files may not refer to where they were made.
+function(check_installed_files)
+  file(GLOB_RECURSE found "${prefix}/lib*/*")
+  list(FILTER found INCLUDE REGEX "/(emmy.pc|emmy[A-Za-z-]*\\.cmake)$")
+  list(LENGTH found count)
+  if(count LESS 5)
+    message(FATAL_ERROR "expected five files for CMake and pkg-config: ${found}")
+  endif()
+  foreach(file IN LISTS found)
+    file(READ "${file}" text)
+    foreach(folder IN ITEMS "${SOURCE}" "${BUILD}" "${prefix}")
+      string(FIND "${text}" "${folder}/" place)
+      if(NOT place EQUAL -1)
+        message(FATAL_ERROR "${file} refers to ${folder}")
+      endif()
+    endforeach()
+  endforeach()
+endfunction()
+
 set(configure "${CMAKE_COMMAND}" -S "${SOURCE}/tests/package/consumer"
   -B "${SCRATCH}/build" -G Ninja "-DCMAKE_CXX_COMPILER=${COMPILER}"
   "-DCMAKE_CXX_FLAGS=${FLAGS}")
+# A subfolder must not ask for what only tests and verification need.
+set(subfolder_arguments
+  -DCMAKE_DISABLE_FIND_PACKAGE_GTest=ON
+  -DCMAKE_DISABLE_FIND_PACKAGE_CLI11=ON
+  -DCMAKE_DISABLE_FIND_PACKAGE_Boost=ON
+  -DCMAKE_DISABLE_FIND_PACKAGE_benchmark=ON
+  -DCMAKE_DISABLE_FIND_PACKAGE_Python=ON
+  -DCMAKE_DISABLE_FIND_PACKAGE_pybind11=ON)
 
-if(WAY STREQUAL installed)
-  run("${CMAKE_COMMAND}" --install "${BUILD}" --prefix "${SCRATCH}/prefix")
-  run(${configure} "-DCMAKE_PREFIX_PATH=${SCRATCH}/prefix")
+if(WAY MATCHES "^(static|shared)$")
+  run("${CMAKE_COMMAND}" --install "${BUILD}" --prefix "${prefix}")
+  check_installed_files()
+  foreach(file IN ITEMS bin/emmy share/emmy/case.schema.json include/emmy/emmy.h)
+    if(NOT EXISTS "${prefix}/${file}")
+      message(FATAL_ERROR "${file} is not installed")
+    endif()
+  endforeach()
+  run_program("${prefix}/bin/emmy" --version)
+  # Files that were moved after installation still work.
+  file(RENAME "${prefix}" "${SCRATCH}/moved")
+  run(${configure} "-DCMAKE_PREFIX_PATH=${SCRATCH}/moved" "-DEMMY_KIND=${WAY}")
   run("${CMAKE_COMMAND}" --build "${SCRATCH}/build")
-  run("${SCRATCH}/build/consumer")
-  if(NOT output MATCHES "^emmy [0-9]+\\.[0-9]+\\.[0-9]+\n$")
-    message(FATAL_ERROR "the consumer prints: ${output}")
+  run_program("${SCRATCH}/build/consumer" "${case}")
+  run(ldd "${SCRATCH}/build/consumer")
+  if(WAY STREQUAL shared AND NOT output MATCHES "${SCRATCH}/moved/[^ ]*libemmy\\.so")
+    message(FATAL_ERROR "the consumer is not linked to the shared library: ${output}")
+  elseif(WAY STREQUAL static AND output MATCHES "libemmy")
+    message(FATAL_ERROR "the consumer is not linked to the static library: ${output}")
   endif()
-else()
-  # Configuring is enough: what is built is the same. A subfolder must not ask
-  # for what only tests and verification need, nor define their targets.
-  run(${configure} "-DEMMY_SUBFOLDER=${SOURCE}"
-    -DCMAKE_DISABLE_FIND_PACKAGE_GTest=ON
-    -DCMAKE_DISABLE_FIND_PACKAGE_CLI11=ON
-    -DCMAKE_DISABLE_FIND_PACKAGE_Boost=ON
-    -DCMAKE_DISABLE_FIND_PACKAGE_benchmark=ON)
+elseif(WAY STREQUAL pkg_config)
+  find_program(pkg_config NAMES pkg-config pkgconf REQUIRED)
+  run("${CMAKE_COMMAND}" --install "${BUILD}" --prefix "${prefix}"
+    --component development)
+  run("${CMAKE_COMMAND}" --install "${BUILD}" --prefix "${prefix}"
+    --component library)
+  file(GLOB_RECURSE pc "${prefix}/*/emmy.pc")
+  get_filename_component(folder "${pc}" DIRECTORY)
+  set(ENV{PKG_CONFIG_PATH} "${folder}")
+  run("${pkg_config}" --cflags --libs emmy)
+  string(STRIP "${output}" options)
+  separate_arguments(options UNIX_COMMAND "${options} ${FLAGS}")
+  get_filename_component(library "${folder}" DIRECTORY)
+  run("${COMPILER}" -std=c++20 "${SOURCE}/tests/package/consumer/consumer.cc"
+    ${options} "-Wl,-rpath,${library}" -o "${SCRATCH}/consumer")
+  run_program("${SCRATCH}/consumer" "${case}")
+  run("${pkg_config}" --modversion emmy)
+elseif(WAY STREQUAL debian)
+  run(bash "${SOURCE}/tests/package/debian_test" "${BUILD}" "${SCRATCH}"
+    "${case}")
+else()  # subfolder, fetched
+  # Configuring is enough: what is built is the same.
+  if(WAY STREQUAL subfolder)
+    list(APPEND configure "-DEMMY_SUBFOLDER=${SOURCE}")
+  else()
+    list(APPEND configure "-DEMMY_FETCHED=${SOURCE}"
+      -DFETCHCONTENT_FULLY_DISCONNECTED=ON)
+  endif()
+  run(${configure} ${subfolder_arguments})
   run("${CMAKE_COMMAND}" --build "${SCRATCH}/build" --target help)
-  if(output MATCHES "emmy_verification|emmy_base_test|emmy_program")
+  if(output MATCHES "emmy_verification|emmy_base_test|emmy_program|emmy_python|emmy_example")
     message(FATAL_ERROR "a subfolder builds more than the library: ${CMAKE_MATCH_0}")
+  endif()
+  # Nor is the shared library made for who asks for the static one; with
+  # BUILD_SHARED_LIBS it is the one that is linked to.
+  run(ninja -C "${SCRATCH}/build" -n consumer)
+  if(output MATCHES "libemmy\\.so" OR NOT output MATCHES "libemmy\\.a")
+    message(FATAL_ERROR "expected the static library:\n${output}")
+  endif()
+  run(${configure} ${subfolder_arguments} -DBUILD_SHARED_LIBS=ON)
+  run(ninja -C "${SCRATCH}/build" -n consumer)
+  if(NOT output MATCHES "libemmy\\.so")
+    message(FATAL_ERROR "expected the shared library:\n${output}")
   endif()
 endif()
 file(REMOVE_RECURSE "${SCRATCH}")

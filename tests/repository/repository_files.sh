@@ -18,7 +18,7 @@ project_files() {
 }
 
 cpp_files() {
-  project_files lib verification tools tests |
+  project_files lib verification tools python examples tests |
     grep -E '\.(h|cc|inc)$' || true
 }
 

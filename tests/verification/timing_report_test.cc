@@ -104,6 +104,14 @@ TEST(TimingReportTest, FitsTheGrowth) {
   EXPECT_THAT(TimingReport(run), HasSubstr("| 1.00 | <= 1.1 | met |"));
 }
 
+TEST(TimingReportTest, FitsNoGrowthWhereASizeIsMissing) {
+  const TimingRun run = Read(FileWith(
+      "partial.json", absl::StrCat(Row("chain/boxes:100", 1.0, "us"), ",",
+                                   Row("chain/boxes:1000", 10.0, "us"))));
+  EXPECT_THAT(TimingReport(run),
+              HasSubstr("100 to 10,000, by boxes | not measured |"));
+}
+
 TEST(CompareTimingsTest, NamesWhatChangedBeyondItsSpread) {
   const TimingRun before =
       Read(FileWith("before.json", absl::StrCat(Row("a", 10.0, "ns"), ",",

@@ -37,7 +37,11 @@ class WriteReportTest : public ::testing::Test {
   }
 
   const std::string path_;
-  const fs::path directory_ = fs::path(::testing::TempDir()) / "emmy_report";
+  // Its own for each test: they may run at the same time.
+  const fs::path directory_ =
+      fs::path(::testing::TempDir()) /
+      (std::string("emmy_report_") +
+       ::testing::UnitTest::GetInstance()->current_test_info()->name());
   const Claim claim_ = SampleClaim("group/name");
 };
 

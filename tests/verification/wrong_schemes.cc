@@ -54,6 +54,14 @@ Scheme BiasedRounding(double bias) {
   });
 }
 
+Scheme PreferredAxis(double bias) {
+  return WithDamage([bias](State& state) {
+    for (Eigen::Index i = 0; i < state.velocity.value.size(); i += 3) {
+      state.velocity.compensation(i) += bias * state.velocity.value(i);
+    }
+  });
+}
+
 Scheme WrongClock(double error, bool ancf_only) {
   return WithOptions(
       [error, ancf_only](const Model& model, IntegratorOptions* options) {

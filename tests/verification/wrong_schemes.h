@@ -16,6 +16,10 @@ Scheme FewIterations(int iterations);
 // Every velocity is rounded away from zero by the relative part `bias`.
 Scheme BiasedRounding(double bias);
 
+// The first component of every velocity vector is too large by the relative
+// part `bias` after each step: one direction is not like the others.
+Scheme PreferredAxis(double bias);
+
 // Each step is longer than asked by the relative part `error`; of ANCF bodies
 // only, if so asked.
 Scheme WrongClock(double error, bool ancf_only = false);

@@ -7,8 +7,9 @@ namespace emmy {
 
 enum ExitStatus : int {
   kExitDone = 0,
-  kExitFailed = 1,    // A check failed or the computation could not go on.
-  kExitBadInput = 2,  // Bad input or usage; nothing was written.
+  kExitFailed = 1,       // A check failed or the computation could not go on.
+  kExitBadInput = 2,     // Bad input or usage; nothing was written.
+  kExitInterrupted = 3,  // Stopped by SIGINT or SIGTERM, after a whole step.
 };
 
 }  // namespace emmy

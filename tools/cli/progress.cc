@@ -33,7 +33,8 @@ std::string Clock(double seconds) {
 
 }  // namespace
 
-std::string ProgressText(int64_t step, int64_t num_steps, double elapsed) {
+std::string ProgressText(int64_t first_step, int64_t step, int64_t num_steps,
+                         double elapsed) {
   constexpr int kWidth = 24;
   const double part = std::clamp(
       static_cast<double>(step) / static_cast<double>(num_steps), 0.0, 1.0);
@@ -41,14 +42,17 @@ std::string ProgressText(int64_t step, int64_t num_steps, double elapsed) {
   std::string bar(filled, '=');
   if (filled < kWidth) bar += '>';
   bar.resize(kWidth, ' ');
+  const auto done = static_cast<double>(step - first_step);
+  const auto to_do = static_cast<double>(num_steps - step);
   const std::string left =
-      step > 0 ? Clock(elapsed * (1.0 - part) / part) + " left" : "";
+      done > 0.0 ? Clock(elapsed * to_do / done) + " left" : "";
   return absl::StrFormat("[%s] %3d %%  step %d of %d  %s", bar,
                          static_cast<int>(100.0 * part), step, num_steps, left);
 }
 
-Progress::Progress(int64_t num_steps, bool quiet)
-    : num_steps_(std::max<int64_t>(num_steps, 1)),
+Progress::Progress(int64_t first_step, int64_t num_steps, bool quiet)
+    : first_step_(first_step),
+      num_steps_(std::max<int64_t>(num_steps, 1)),
       enabled_(!quiet && HasTerminal()),
       next_(start_ + kFirst) {}
 
@@ -61,7 +65,7 @@ void Progress::Update(int64_t step) {
   const double elapsed = std::chrono::duration<double>(now - start_).count();
   // To the left margin, the text, and away with the rest of the line.
   std::fprintf(stderr, "\r%s\033[K",
-               ProgressText(step, num_steps_, elapsed).c_str());
+               ProgressText(first_step_, step, num_steps_, elapsed).c_str());
   std::fflush(stderr);
 }
 

@@ -10,14 +10,16 @@
 namespace emmy {
 
 // "[====>     ]  42 %  step 420 of 1000  0:12 left": `elapsed` seconds after
-// the start.
-std::string ProgressText(int64_t step, int64_t num_steps, double elapsed);
+// the step `first_step`.
+std::string ProgressText(int64_t first_step, int64_t step, int64_t num_steps,
+                         double elapsed);
 
 // Draws nothing unless standard error is a terminal, nothing in the first
 // second, and at most ten times a second after that.
 class Progress {
  public:
-  Progress(int64_t num_steps, bool quiet);
+  // A run from `first_step` to `num_steps`.
+  Progress(int64_t first_step, int64_t num_steps, bool quiet);
   ~Progress() { Clear(); }
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
@@ -30,6 +32,7 @@ class Progress {
  private:
   using Clock = std::chrono::steady_clock;
 
+  int64_t first_step_;
   int64_t num_steps_;
   bool enabled_;
   bool visible_ = false;

@@ -1,8 +1,12 @@
 #include "tools/cli/run_case.h"
 
+#include <algorithm>
 #include <chrono>
+#include <limits>
+#include <optional>
 
 #include "absl/status/status.h"
+#include "absl/status/statusor.h"
 #include "absl/strings/str_format.h"
 #include "emmy/diagnostics/invariant_monitor.h"
 #include "emmy/integrate/simulate.h"
@@ -15,9 +19,13 @@ namespace {
 // Writes the rows of the history, each state at most once.
 class Recorder {
  public:
+  // The row of `last_step` is there already; −1: none is.
   Recorder(const Model& model, const InvariantMonitor& monitor,
-           HistoryWriter* history)
-      : model_(model), monitor_(monitor), history_(history) {}
+           HistoryWriter* history, int64_t last_step)
+      : model_(model),
+        monitor_(monitor),
+        history_(history),
+        last_step_(last_step) {}
 
   // `monitor` must have observed `state`.
   void Record(const State& state, int iterations) {
@@ -34,9 +42,29 @@ class Recorder {
   const Model& model_;
   const InvariantMonitor& monitor_;
   HistoryWriter* history_;
-  int64_t last_step_ = -1;
+  int64_t last_step_;
   absl::Status status_;
 };
+
+// Iterations and time of a run, over all its parts.
+struct Effort {
+  int64_t total_iterations = 0;
+  int max_iterations = 0;
+  int last_iterations = 0;
+  double wall_seconds = 0.0;
+};
+
+Effort EffortBefore(const Checkpoint* resume) {
+  if (resume == nullptr) return {};
+  const auto whole = [](int64_t value) {
+    return static_cast<int>(
+        std::min<int64_t>(value, std::numeric_limits<int>::max()));
+  };
+  return {.total_iterations = resume->total_iterations,
+          .max_iterations = whole(resume->max_iterations),
+          .last_iterations = whole(resume->last_iterations),
+          .wall_seconds = resume->wall_seconds};
+}
 
 std::string DescribeInvariant(const char* name, const char* unit,
                               double max_error, double scale,
@@ -50,54 +78,100 @@ std::string DescribeInvariant(const char* name, const char* unit,
 
 }  // namespace
 
-RunSummary RunCase(const RunOptions& options,
-                   EnergyMomentumIntegrator& integrator, LoadedCase& loaded,
-                   HistoryWriter* history) {
+RunResult RunCase(const RunOptions& options,
+                  EnergyMomentumIntegrator& integrator, LoadedCase& loaded,
+                  HistoryWriter* history) {
   State& state = loaded.state;
   const int64_t output_every = loaded.description.output_every;
-  const int64_t last_step = state.step + options.num_steps;
-
+  const int64_t last_step = options.num_steps;
   InvariantMonitor monitor(loaded.model, state);
-  Recorder recorder(loaded.model, monitor, history);
-  recorder.Record(state, 0);
-  Progress progress(options.num_steps, options.quiet);
-  int iterations = 0;
+  int64_t last_row = -1;
+  if (options.resume != nullptr) {
+    state = options.resume->state;
+    monitor.Resume(state, options.resume->extremes);
+    // Rows in between, of an end that was none, are not in the checkpoint.
+    last_row = state.step - state.step % output_every;
+  }
+  const auto start = std::chrono::steady_clock::now();
+  const Effort before = EffortBefore(options.resume);
+  Effort effort = before;
+  const auto update_time = [&] {
+    const std::chrono::duration<double> wall =
+        std::chrono::steady_clock::now() - start;
+    effort.wall_seconds = before.wall_seconds + wall.count();
+  };
+  Recorder recorder(loaded.model, monitor, history, last_row);
+  Checkpointer checkpointer(
+      options.checkpoint, [&]() -> absl::StatusOr<Checkpoint> {
+        update_time();
+        Checkpoint checkpoint{.case_name = loaded.description.name,
+                              .case_checksum = CaseChecksum(loaded.description),
+                              .build = CheckpointBuild(),
+                              .state = state,
+                              .kept = integrator.Keep(),
+                              .extremes = monitor.extremes(),
+                              .total_iterations = effort.total_iterations,
+                              .max_iterations = effort.max_iterations,
+                              .last_iterations = effort.last_iterations,
+                              .wall_seconds = effort.wall_seconds,
+                              .history = std::nullopt};
+        if (history == nullptr) return checkpoint;
+        const absl::StatusOr<HistoryPosition> position = history->Sync();
+        if (!position.ok()) return position.status();
+        checkpoint.history = *position;
+        return checkpoint;
+      });
+  const auto files_ok = [&] {
+    return recorder.status().ok() && checkpointer.status().ok();
+  };
+  if (options.resume == nullptr) {
+    recorder.Record(state, 0);
+    if (files_ok()) checkpointer.Write(state.step);
+  }
+  Progress progress(state.step, last_step, options.quiet);
   bool is_finite = true;
 
-  const auto start = std::chrono::steady_clock::now();
   SimulationReport report;
-  if (recorder.status().ok()) {
-    report = Simulate(
-        integrator, state, options.num_steps,
-        [&](const State& reached, const StepReport& step) {
-          monitor.Observe(reached);
-          iterations = step.iterations;
-          if (reached.step % output_every == 0 || reached.step == last_step) {
-            recorder.Record(reached, iterations);
-          }
-          progress.Update(reached.step);
-          is_finite = IsFinite(monitor.latest());
-          return is_finite && recorder.status().ok() && !IsInterrupted();
-        });
+  if (files_ok()) {
+    report = Simulate(integrator, state, last_step - state.step,
+                      [&](const State& reached, const StepReport& step) {
+                        monitor.Observe(reached);
+                        is_finite = IsFinite(monitor.latest());
+                        if (!is_finite) return false;
+                        effort.total_iterations += step.iterations;
+                        effort.max_iterations =
+                            std::max(effort.max_iterations, step.iterations);
+                        effort.last_iterations = step.iterations;
+                        if (reached.step % output_every == 0) {
+                          recorder.Record(reached, step.iterations);
+                        }
+                        if (recorder.status().ok())
+                          checkpointer.Stepped(reached.step);
+                        progress.Update(reached.step);
+                        return files_ok() && !IsInterrupted();
+                      });
   }
-  const std::chrono::duration<double> wall =
-      std::chrono::steady_clock::now() - start;
   progress.Clear();
-  recorder.Record(state, iterations);  // Where an early end was reached.
+  // Before the row of an end that is no output step: whoever goes on, goes on
+  // without it.
+  if (is_finite && files_ok()) checkpointer.Write(state.step);
+  if (is_finite) recorder.Record(state, effort.last_iterations);
+  update_time();
 
-  RunSummary summary;
+  RunResult result;
+  RunSummary& summary = result.summary;
   summary.case_name = loaded.description.name;
+  summary.status = RunStatus::kFailed;
   if (!report.ok()) {
-    summary.status = RunStatus::kFailed;
     summary.message = report.message;
   } else if (!is_finite) {
-    summary.status = RunStatus::kFailed;
     summary.message = absl::StrFormat(
         "energy or momentum is not finite after step %d at %.6g s", state.step,
         state.time.value);
   } else if (!recorder.status().ok()) {
-    summary.status = RunStatus::kFailed;
     summary.message = absl::StrFormat("%s", recorder.status().message());
+  } else if (!checkpointer.status().ok()) {
+    summary.message = absl::StrFormat("%s", checkpointer.status().message());
   } else if (state.step < last_step) {
     summary.status = RunStatus::kInterrupted;
     summary.message = absl::StrFormat("interrupted after step %d at %.6g s",
@@ -105,16 +179,22 @@ RunSummary RunCase(const RunOptions& options,
   } else {
     summary.status = RunStatus::kCompleted;
   }
-  summary.steps = report.steps;
+  result.can_be_resumed =
+      summary.status != RunStatus::kCompleted && report.ok() && is_finite &&
+      (checkpointer.has_written() || options.resume != nullptr);
+  summary.steps = state.step;
   summary.time = state.time.value;
-  summary.wall_seconds = wall.count();
+  summary.wall_seconds = effort.wall_seconds;
   summary.degrees_of_freedom = loaded.model.degrees_of_freedom();
   summary.energy = monitor.energy();
   summary.momentum = monitor.momentum();
   summary.angular_momentum = monitor.angular_momentum();
-  summary.mean_iterations = report.mean_iterations();
-  summary.max_iterations = report.max_iterations;
-  return summary;
+  summary.mean_iterations = state.step > 0
+                                ? static_cast<double>(effort.total_iterations) /
+                                      static_cast<double>(state.step)
+                                : 0.0;
+  summary.max_iterations = effort.max_iterations;
+  return result;
 }
 
 std::string DescribeSummary(const RunSummary& summary) {

@@ -8,22 +8,35 @@
 
 #include "emmy/integrate/energy_momentum.h"
 #include "emmy/io/case_file.h"
+#include "emmy/io/checkpoint.h"
 #include "emmy/io/history.h"
 #include "emmy/io/summary.h"
+#include "tools/cli/checkpointer.h"
 
 namespace emmy {
 
 struct RunOptions {
-  int64_t num_steps = 0;
+  int64_t num_steps = 0;  // From the start, not from `resume`.
   bool quiet = false;
+  CheckpointSettings checkpoint;
+  // To go on from; `integrator` and `history` have taken it up already.
+  const Checkpoint* resume = nullptr;
+};
+
+struct RunResult {
+  RunSummary summary;  // Of the whole run, what was before `resume` included.
+  // The run was stopped from outside, and its checkpoint is written.
+  bool can_be_resumed = false;
 };
 
 // Advances `loaded.state`. The history, if any, gets the start, every
 // output step and the last step reached. Ends early if a step fails, if the
-// history cannot be written or if IsInterrupted(); the summary tells.
-RunSummary RunCase(const RunOptions& options,
-                   EnergyMomentumIntegrator& integrator, LoadedCase& loaded,
-                   HistoryWriter* history);
+// history or a checkpoint cannot be written or if IsInterrupted(); the summary
+// tells. Checkpoints are written at the start, when they are due, and at the
+// end; each after the rows before it are on the disk.
+RunResult RunCase(const RunOptions& options,
+                  EnergyMomentumIntegrator& integrator, LoadedCase& loaded,
+                  HistoryWriter* history);
 
 // The summary in words, for people.
 std::string DescribeSummary(const RunSummary& summary);

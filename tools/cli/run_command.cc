@@ -1,7 +1,9 @@
 #include "tools/cli/run_command.h"
 
+#include <cerrno>
 #include <cstdint>
 #include <cstdio>
+#include <cstring>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -13,8 +15,11 @@
 #include "absl/status/status.h"
 #include "absl/status/statusor.h"
 #include "absl/strings/numbers.h"
+#include "absl/strings/str_cat.h"
+#include "absl/strings/str_replace.h"
 #include "emmy/integrate/energy_momentum.h"
 #include "emmy/io/case_file.h"
+#include "emmy/io/checkpoint.h"
 #include "emmy/io/history.h"
 #include "emmy/io/summary.h"
 #include "emmy/io/text_file.h"
@@ -31,17 +36,129 @@ struct Arguments {
   std::vector<std::string> overrides;
   std::optional<int64_t> steps;
   bool quiet = false;
+  std::string checkpoint;
+  std::optional<int64_t> checkpoint_every;
+  std::string resume;
+
+  // Where checkpoints go; none: "".
+  const std::string& checkpoint_path() const {
+    return checkpoint.empty() ? resume : checkpoint;
+  }
 };
 
-// Makes the directory and begins the history. A summary of an earlier run
-// does not belong to it.
+// A checkpoint that fits the case, as far as the run can go on from it.
+absl::Status CheckResumable(const Arguments& arguments,
+                            const Checkpoint& checkpoint,
+                            const LoadedCase& loaded, int64_t num_steps) {
+  const absl::Status same =
+      CheckSameCase(checkpoint, loaded.description, loaded.state);
+  if (!same.ok()) return same;
+  if (checkpoint.state.step > num_steps) {
+    return absl::InvalidArgumentError(
+        absl::StrCat("is of step ", checkpoint.state.step,
+                     ", the run is to end at step ", num_steps));
+  }
+  if (checkpoint.history.has_value() && arguments.output.empty()) {
+    return absl::InvalidArgumentError(
+        "is of a run with a history: --output must name its folder");
+  }
+  if (!checkpoint.history.has_value() && !arguments.output.empty()) {
+    return absl::InvalidArgumentError(
+        "is of a run without a history, which --output cannot begin now");
+  }
+  return absl::OkStatus();
+}
+
+// The checkpoint to go on from, with the integrator as it was there.
+absl::StatusOr<Checkpoint> LoadCheckpoint(
+    const Arguments& arguments, const LoadedCase& loaded, int64_t num_steps,
+    EnergyMomentumIntegrator& integrator) {
+  absl::StatusOr<Checkpoint> checkpoint = ReadCheckpoint(arguments.resume);
+  if (!checkpoint.ok()) return checkpoint.status();
+  absl::Status status =
+      CheckResumable(arguments, *checkpoint, loaded, num_steps);
+  if (status.ok()) status = integrator.Restore(checkpoint->kept);
+  if (!status.ok()) {
+    return absl::Status(status.code(),
+                        absl::StrCat(arguments.resume, ": ", status.message()));
+  }
+  if (checkpoint->build != CheckpointBuild()) {
+    PrintError(absl::UnknownError(absl::StrCat(
+                   arguments.resume, ": was written by ", checkpoint->build,
+                   "; this is ", CheckpointBuild(),
+                   ": going on, but the last digits may differ")),
+               kExitDone);
+  }
+  return checkpoint;
+}
+
+// Whether checkpoints can be written, before anything else is. A checkpoint
+// that is there already may be worth days.
+absl::Status CheckCheckpointPath(const Arguments& arguments) {
+  const std::string& path = arguments.checkpoint_path();
+  if (path.empty()) return absl::OkStatus();
+  std::error_code ignored;
+  if (path != arguments.resume && std::filesystem::exists(path, ignored)) {
+    return absl::InvalidArgumentError(absl::StrCat(
+        path, ": exists: go on from it by --resume ", path, ", or remove it"));
+  }
+  const std::string temporary = path + ".tmp";
+  std::FILE* file = std::fopen(temporary.c_str(), "wb");
+  if (file == nullptr) {
+    return absl::InvalidArgumentError(
+        absl::StrCat(path, ": cannot be written: ", std::strerror(errno)));
+  }
+  static_cast<void>(std::fclose(file));  // Nothing was written.
+  std::filesystem::remove(temporary, ignored);
+  return absl::OkStatus();
+}
+
+// Makes the folder and begins the history, or goes on with it. A summary of an
+// earlier run does not belong to it.
 absl::StatusOr<HistoryWriter> BeginOutput(const std::string& directory,
-                                          const Model& model) {
-  const absl::Status made = MakeDirectory(directory);
-  if (!made.ok()) return made;
+                                          const Model& model,
+                                          const Checkpoint* resume) {
+  const std::string path = directory + "/history.csv";
+  absl::StatusOr<HistoryWriter> history =
+      resume == nullptr ? HistoryWriter::Create(path, model)
+                        : HistoryWriter::Resume(path, model, *resume->history);
+  if (!history.ok()) return history.status();
   std::error_code ignored;
   std::filesystem::remove(directory + "/summary.json", ignored);
-  return HistoryWriter::Create(directory + "/history.csv", model);
+  const absl::Status synced = SyncFolderOf(path);
+  if (!synced.ok()) return synced;
+  return history;
+}
+
+// A word as a shell has to be given it.
+std::string Quoted(const std::string& word) {
+  const bool is_plain =
+      !word.empty() &&
+      word.find_first_not_of(
+          "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789"
+          "_-+=./,:@%") == std::string::npos;
+  if (is_plain) return word;
+  return absl::StrCat("'", absl::StrReplaceAll(word, {{"'", "'\\''"}}), "'");
+}
+
+// The command that goes on with this run.
+std::string ResumeCommand(const Arguments& arguments) {
+  std::string command = "emmy run " + Quoted(arguments.case_path);
+  const auto add = [&command](const char* option, const std::string& value) {
+    if (value.empty()) return;
+    absl::StrAppend(&command, " ", option, " ", Quoted(value));
+  };
+  add("--output", arguments.output);
+  for (const std::string& setting : arguments.overrides) add("--set", setting);
+  if (arguments.steps.has_value()) {
+    add("--steps", absl::StrCat(*arguments.steps));
+  }
+  if (arguments.checkpoint_every.has_value()) {
+    add("--checkpoint-every", absl::StrCat(*arguments.checkpoint_every));
+  }
+  if (arguments.quiet) command += " --quiet";
+  add("--resume", arguments.checkpoint_path());
+  return command;
 }
 
 // A number of steps that fits 64 bits; the message if it is none.
@@ -51,7 +168,55 @@ std::string CheckSteps(const std::string& text) {
   return "must be a whole number >= 0 [steps], got " + text;
 }
 
+std::string CheckEvery(const std::string& text) {
+  int64_t steps = 0;
+  if (absl::SimpleAtoi(text, &steps) && steps >= 1) return "";
+  return "must be a whole number >= 1 [steps], got " + text;
+}
+
+// What is wrong with input or with a file that cannot be opened; a file that
+// can, but not be written, is no fault of the input.
+ExitStatus RefuseOrFail(const absl::Status& status) {
+  return PrintError(status,
+                    absl::IsDataLoss(status) ? kExitFailed : kExitBadInput);
+}
+
+// Writes the summary and says what became of the run.
+ExitStatus Report(const Arguments& arguments, const RunResult& result,
+                  const std::string& history_path) {
+  const RunSummary& summary = result.summary;
+  ExitStatus exit_status = kExitFailed;
+  if (summary.status == RunStatus::kCompleted) exit_status = kExitDone;
+  if (summary.status == RunStatus::kInterrupted) exit_status = kExitInterrupted;
+  if (history_path.empty()) {
+    Print(WriteSummary(summary));
+  } else {
+    const std::string path = arguments.output + "/summary.json";
+    const absl::Status written = WriteTextFile(path, WriteSummary(summary));
+    if (!written.ok()) exit_status = PrintError(written, kExitFailed);
+    if (written.ok() && !arguments.quiet) {
+      Print(DescribeSummary(summary) + "Wrote " + history_path + " and " +
+            path + "\n");
+    }
+  }
+  if (summary.status != RunStatus::kCompleted) {
+    std::string message = arguments.case_path + ": " + summary.message;
+    if (result.can_be_resumed) {
+      message += "\nTo go on: " + ResumeCommand(arguments);
+    }
+    PrintError(absl::InternalError(message), exit_status);
+  }
+  return exit_status;
+}
+
 ExitStatus Run(const Arguments& arguments) {
+  if (arguments.checkpoint_every.has_value() &&
+      arguments.checkpoint_path().empty()) {
+    return PrintError(
+        absl::InvalidArgumentError(
+            "emmy run: --checkpoint-every needs --checkpoint or --resume"),
+        kExitBadInput);
+  }
   absl::StatusOr<LoadedCase> loaded =
       LoadCaseFile(arguments.case_path, arguments.overrides);
   if (!loaded.ok()) return PrintError(loaded.status(), kExitBadInput);
@@ -67,43 +232,39 @@ ExitStatus Run(const Arguments& arguments) {
                       kExitBadInput);
   }
 
+  const int64_t num_steps = arguments.steps.value_or(NumberOfSteps(settings));
+  std::optional<Checkpoint> resume;
+  if (!arguments.resume.empty()) {
+    absl::StatusOr<Checkpoint> checkpoint =
+        LoadCheckpoint(arguments, *loaded, num_steps, *integrator);
+    if (!checkpoint.ok()) return PrintError(checkpoint.status(), kExitBadInput);
+    resume = *std::move(checkpoint);
+  }
+
   // All input has been checked: only now is anything written.
   CatchInterrupts();
   std::optional<HistoryWriter> history;
   if (!arguments.output.empty()) {
+    const absl::Status made = MakeDirectory(arguments.output);
+    if (!made.ok()) return PrintError(made, kExitBadInput);
+  }
+  const absl::Status writable = CheckCheckpointPath(arguments);
+  if (!writable.ok()) return PrintError(writable, kExitBadInput);
+  if (!arguments.output.empty()) {
     absl::StatusOr<HistoryWriter> begun =
-        BeginOutput(arguments.output, loaded->model);
-    if (!begun.ok()) {
-      return PrintError(begun.status(), absl::IsDataLoss(begun.status())
-                                            ? kExitFailed
-                                            : kExitBadInput);
-    }
+        BeginOutput(arguments.output, loaded->model,
+                    resume.has_value() ? &*resume : nullptr);
+    if (!begun.ok()) return RefuseOrFail(begun.status());
     history = *std::move(begun);
   }
-  const RunSummary summary =
-      RunCase({.num_steps = arguments.steps.value_or(NumberOfSteps(settings)),
-               .quiet = arguments.quiet},
+  const RunResult result =
+      RunCase({.num_steps = num_steps,
+               .quiet = arguments.quiet,
+               .checkpoint = {.path = arguments.checkpoint_path(),
+                              .every = arguments.checkpoint_every},
+               .resume = resume.has_value() ? &*resume : nullptr},
               *integrator, *loaded, history.has_value() ? &*history : nullptr);
-
-  ExitStatus exit_status =
-      summary.status == RunStatus::kCompleted ? kExitDone : kExitFailed;
-  if (!history.has_value()) {
-    Print(WriteSummary(summary));
-  } else {
-    const std::string path = arguments.output + "/summary.json";
-    const absl::Status written = WriteTextFile(path, WriteSummary(summary));
-    if (!written.ok()) exit_status = PrintError(written, kExitFailed);
-    if (written.ok() && !arguments.quiet) {
-      Print(DescribeSummary(summary) + "Wrote " + history->path() + " and " +
-            path + "\n");
-    }
-  }
-  if (summary.status != RunStatus::kCompleted) {
-    PrintError(
-        absl::InternalError(arguments.case_path + ": " + summary.message),
-        kExitFailed);
-  }
-  return exit_status;
+  return Report(arguments, result, history.has_value() ? history->path() : "");
 }
 
 }  // namespace
@@ -128,6 +289,19 @@ Command AddRunCommand(CLI::App& app) {
                    "Number of steps, instead of the case's duration")
       ->type_name("N")
       ->check(CLI::Validator(CheckSteps, ""));
+  options
+      ->add_option("--checkpoint", arguments->checkpoint,
+                   "Keep in FILE what it takes to go on")
+      ->type_name("FILE");
+  options
+      ->add_option("--checkpoint-every", arguments->checkpoint_every,
+                   "Write it every N steps (default: every minute)")
+      ->type_name("N")
+      ->check(CLI::Validator(CheckEvery, ""));
+  options
+      ->add_option("--resume", arguments->resume,
+                   "Go on from the checkpoint FILE, and keep it up")
+      ->type_name("FILE");
   options->add_flag("-q,--quiet", arguments->quiet,
                     "No progress bar and no report");
   options->footer(
@@ -137,9 +311,18 @@ JSON, and no file is written. With it, DIR is made if needed; history.csv grows
 during the run, and summary.json is written at the end, also of a run that
 fails or is stopped by Ctrl-C ("status").
 
+A run with --checkpoint that was stopped, by whatever, goes on with --resume as
+if it never had been: the same command line, with the file as it is, gives the
+same results to the last bit. --steps then still counts from the start.
+
+Exit status: 0 done; 1 the computation could not go on; 2 bad input or usage,
+nothing written; 3 stopped by Ctrl-C (SIGINT) or SIGTERM, after a whole step.
+
 Examples:
   emmy run examples/paper_box.json
   emmy run examples/paper_box.json --output out
+  emmy run examples/paper_box.json --output out --checkpoint out/checkpoint
+  emmy run examples/paper_box.json --output out --resume out/checkpoint
   emmy run examples/paper_box.json --output out --steps 100 \
       --set /integrator/time_step=1e-4 --set /rigid_bodies/0/penalty=1e12)");
   return {options, [arguments] { return Run(*arguments); }};

@@ -114,8 +114,8 @@ StepReport StepMidpoint(const ElasticSystem& system, double time_step,
     return Equation{system.mass * (w - w0) + dt * InternalForce(system, middle),
                     system.mass + 0.25 * dt * dt * Stiffness(system, middle)};
   };
-  StepReport report =
-      SolveNewton(evaluate, 0.5 * dt, SizeOfPosition(*motion, dt), &w1);
+  StepReport report = SolveNewton(evaluate, 0.5 * std::abs(dt),
+                                  SizeOfPosition(*motion, dt), &w1);
   if (!report.ok()) return report;
   motion->position += 0.5 * dt * (w0 + w1);
   motion->velocity = w1;

@@ -1,6 +1,5 @@
 #include "verification/benchmarks/checked_run.h"
 
-#include <algorithm>
 #include <utility>
 
 #include "absl/strings/str_cat.h"
@@ -43,13 +42,17 @@ void CheckedRun::TimeSteps(benchmark::State& state, double bound) {
       return;
     }
     const StepReport report = integrator_->Step(state_);
-    if (!report.ok()) error_ = report.message;
+    if (!report.ok()) {
+      state.SkipWithError(report.message.c_str());
+      return;
+    }
     iterations += report.iterations;
   }
   monitor_->Observe(state_);
   const double energy = monitor_->energy().max_relative_error();
   const double angular = monitor_->angular_momentum().max_relative_error();
-  if (!(std::max(energy, angular) <= bound)) {
+  // Written so that NaN fails.
+  if (!(energy <= bound) || !(angular <= bound)) {
     error_ = absl::StrCat("energy error ", energy, ", angular momentum error ",
                           angular, ", bound ", bound);
     state.SkipWithError(error_.c_str());

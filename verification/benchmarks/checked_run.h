@@ -26,9 +26,10 @@ class CheckedRun {
 
   // Times steps, one an iteration, and fills the counters: `newton_iterations`,
   // `energy_error`, `angular_momentum_error`,
-  // `factorizations` per step. The laws are measured between the start and the
-  // end of what was timed; if they are not kept to `bound`, or a step fails,
-  // the benchmark ends with an error instead of a time.
+  // `factorizations` per step. Energy and angular momentum at the
+  // end are held against those of the start, before the warm-up; if they are
+  // not kept to `bound`, or a step fails, the benchmark ends with an error
+  // instead of a time.
   void TimeSteps(benchmark::State& state, double bound);
 
  private:

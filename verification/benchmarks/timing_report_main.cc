@@ -1,6 +1,7 @@
 // emmy_timing_report: reads what emmy_benchmark wrote and says what it means.
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <iostream>
 #include <string>
 
@@ -52,17 +53,19 @@ int Report(const Arguments& arguments) {
     std::cout << "\n### Against " << arguments.compare << "\n\n"
               << CompareTimings(*before, *now);
   }
-  if (!arguments.page.empty()) {
+  const bool complete =
+      std::none_of(now->timings.begin(), now->timings.end(),
+                   [](const Timing& timing) { return !timing.error.empty(); });
+  if (!arguments.page.empty() && !complete) {
+    std::cerr << arguments.page << ": not written, since a benchmark failed\n";
+  } else if (!arguments.page.empty()) {
     const absl::Status written = WritePage(arguments.page, report);
     if (!written.ok()) {
       std::cerr << written.message() << '\n';
       return 2;
     }
   }
-  for (const Timing& timing : now->timings) {
-    if (!timing.error.empty()) return 1;
-  }
-  return 0;
+  return complete ? 0 : 1;
 }
 
 }  // namespace

@@ -96,9 +96,9 @@ set format y '10^{%%T}'
 set xlabel 'Time step [s]'
 set ylabel 'Largest error'
 set key top left
-stats data using 1 every ::0::0 name 'H' nooutput
+stats data using 1 name 'H' nooutput
 stats data using 3 every ::0::0 name 'E' nooutput
-set xrange [*:1.1 * H_max]
+set xrange [0.9 * H_min:1.1 * H_max]
 slope(x) = 2 * E_max * (x / H_max)**%d
 plot data using 1:3 with linespoints lt 4 title 'Attitude [rad]', \
      data using 1:2 with linespoints lt 1 title 'Angular velocity [rad/s]', \
@@ -297,8 +297,9 @@ void AddOrderClaims(int order, std::vector<Claim>* claims) {
        }});
   claims->push_back(
       {.id = absl::StrCat("composition/ancf_order_", order),
-       .sentence = absl::StrCat("So has the ANCF body's at 1e17 Pa, relaxed, "
-                                "although no step resolves the penalty: order ",
+       .sentence = absl::StrCat("Composed likewise, the relaxed ANCF body's "
+                                "motion at 1e17 Pa, whose penalty no step "
+                                "resolves, has order ",
                                 word, "."),
        .equations = "(COMP-1..4), (ANCF-8), (TOP-6..9)",
        .reference = Reference::kExact,
@@ -311,8 +312,9 @@ void AddOrderClaims(int order, std::vector<Claim>* claims) {
        }});
   claims->push_back(
       {.id = absl::StrCat("composition/soft_order_", order),
-       .sentence = absl::StrCat("And so has that of a body of 1e4 Pa, whose "
-                                "vibration is resolved: order ",
+       .sentence = absl::StrCat("Composed likewise, the motion of an ANCF body "
+                                "of 1e4 Pa, whose vibration is resolved, has "
+                                "order ",
                                 word, "."),
        .equations = "(COMP-1..4), (ANCF-5)",
        .reference = Reference::kCrossFormulation,

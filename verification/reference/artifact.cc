@@ -7,6 +7,7 @@
 #include "emmy/io/text_file.h"
 #include "verification/figures/energy_error_figure.h"
 #include "verification/figures/figure.h"
+#include "verification/reference/manifest.h"
 #include "verification/reference/reference_table.h"
 #include "verification/reference/regression.h"
 #include "verification/registry.h"
@@ -109,6 +110,27 @@ Artifact ReadmeFigureArtifact() {
           }};
 }
 
+// After all data, whose hashes it holds.
+Artifact ManifestArtifact() {
+  const std::string path = "reference_data/manifest.json";
+  return {.name = "manifest",
+          .path = path,
+          .description = "kind, source and hash of the stored data",
+          .compare =
+              [path](const std::string& root) -> absl::StatusOr<std::string> {
+            const absl::StatusOr<std::string> now = MakeManifest(root);
+            if (!now.ok()) return now.status();
+            const absl::StatusOr<std::string> stored =
+                ReadTextFile(absl::StrCat(root, "/", path), kMaxBytes);
+            if (!stored.ok()) return std::string("is missing\n");
+            return DescribeManifestDifference(*stored, *now);
+          },
+          .write = [path](const std::string& root) -> absl::Status {
+            const absl::StatusOr<std::string> now = MakeManifest(root);
+            return now.ok() ? WriteBelow(root, path, *now) : now.status();
+          }};
+}
+
 }  // namespace
 
 const std::vector<Artifact>& AllArtifacts() {
@@ -117,6 +139,7 @@ const std::vector<Artifact>& AllArtifacts() {
     for (const RegressionRun& run : RegressionRuns()) {
       all->push_back(RegressionArtifact(run));
     }
+    all->push_back(ManifestArtifact());
     all->push_back(ClaimTableArtifact());
     all->push_back(ReadmeFigureArtifact());
     return all;

@@ -24,8 +24,8 @@ struct Artifact {
   std::function<absl::Status(const std::string& root)> write;
 };
 
-// Regression data, the table of claims in verification/README.md, and the
-// figures of the documents.
+// Regression data, the manifest of all stored data, the table of claims in
+// verification/README.md, and the figures of the documents.
 const std::vector<Artifact>& AllArtifacts();
 
 // Null if there is none.

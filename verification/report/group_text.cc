@@ -47,8 +47,36 @@ GroupText DescribeGroup(std::string_view group) {
         "Figures of the paper that the formulation follows, computed anew, and "
         "what they show as numbers."}},
       {"kinematics",
-       {"Kinematics",
-        "Attitude and angular velocity of a body, and where its points are."}},
+       {"Kinematics and inertia",
+        "Every material point is a linear function of the coordinates, so that "
+        "the mass matrix is constant; attitude and angular velocity follow "
+        "from the polar decomposition."}},
+      {"laws",
+       {"Equations of motion",
+        "Forces are gradients of the energy, the exact motion satisfies the "
+        "equations, and what a step leaves unsolved accounts for every change "
+        "of energy."}},
+      {"symmetry",
+       {"Symmetries",
+        "Each conserved quantity belongs to a symmetry: the step runs back "
+        "the way it came, looks the same to every observer, and does not "
+        "depend on the sequence in which things are named."}},
+      {"vibration",
+       {"Penalty vibration",
+        "A stiff body is not rigid: it vibrates with the frequency and "
+        "amplitude that linear theory gives, and a relaxed start leaves "
+        "hardly any of it."}},
+      {"agreement",
+       {"Agreement of the two formulations",
+        "The same body as an affine body and as a conventional one."}},
+      {"composition",
+       {"Orders four and six",
+        "Steps forth and back, composed, raise the order and keep every law "
+        "that one step keeps."}},
+      {"angular_velocity",
+       {"Angular velocity",
+        "Three ways to read an angular velocity off an affine body, over the "
+        "whole range of penalties, and what extrapolation gains."}},
       {"baselines",
        {"Comparison with other integrators",
         "The same motion by other methods, each with what it keeps and what "

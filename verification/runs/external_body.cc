@@ -3,39 +3,32 @@
 #include <nlohmann/json.hpp>
 
 #include "absl/status/status.h"
-#include "absl/strings/numbers.h"
 #include "absl/strings/str_cat.h"
 #include "emmy/io/json_text.h"
 #include "emmy/io/text_file.h"
 #include "verification/reference/project_directory.h"
+#include "verification/runs/published_number.h"
 
 namespace emmy::verification {
 namespace {
 
 using Json = nlohmann::json;
 
-double Number(const Json& json) {
-  double value = 0.0;
-  // Rounds correctly, however many digits there are.
-  if (!absl::SimpleAtod(json.get<std::string>(), &value)) {
-    throw Json::other_error::create(501, "not a number: " + json.dump(), &json);
-  }
-  return value;
-}
-
 Vector3d Numbers(const Json& json) {
-  return {Number(json.at(0)), Number(json.at(1)), Number(json.at(2))};
+  return {PublishedNumber(json.at(0)), PublishedNumber(json.at(1)),
+          PublishedNumber(json.at(2))};
 }
 
 ExternalState StateFromRow(const Json& row) {
   ExternalState state;
-  state.time = Number(row.at(0));
+  state.time = PublishedNumber(row.at(0));
   for (int i = 0; i < 9; ++i) {
-    state.attitude(i / 3, i % 3) = Number(row.at(static_cast<size_t>(1 + i)));
+    state.attitude(i / 3, i % 3) =
+        PublishedNumber(row.at(static_cast<size_t>(1 + i)));
   }
   for (int i = 0; i < 3; ++i) {
     state.body_angular_velocity(i) =
-        Number(row.at(static_cast<size_t>(10 + i)));
+        PublishedNumber(row.at(static_cast<size_t>(10 + i)));
   }
   return state;
 }
@@ -43,7 +36,7 @@ ExternalState StateFromRow(const Json& row) {
 ExternalBody BodyFromJson(const Json& json) {
   ExternalBody body;
   body.name = json.at("name").get<std::string>();
-  body.mass = Number(json.at("mass").at("value"));
+  body.mass = PublishedNumber(json.at("mass").at("value"));
   body.inertia = Numbers(json.at("inertia").at("value"));
   body.position = Numbers(json.at("position").at("value"));
   body.velocity = Numbers(json.at("velocity").at("value"));
@@ -52,7 +45,7 @@ ExternalBody BodyFromJson(const Json& json) {
       Numbers(json.at("body_angular_velocity").at("value"));
   if (json.contains("flip_times")) {
     for (const Json& time : json.at("flip_times").at("value")) {
-      body.flip_times.push_back(Number(time));
+      body.flip_times.push_back(PublishedNumber(time));
     }
   }
   for (const Json& row : json.at("rows")) {

@@ -3,26 +3,17 @@
 #include <nlohmann/json.hpp>
 
 #include "absl/status/status.h"
-#include "absl/strings/numbers.h"
 #include "absl/strings/str_cat.h"
 #include "emmy/io/case_file.h"
 #include "emmy/io/json_text.h"
 #include "emmy/io/text_file.h"
 #include "verification/reference/project_directory.h"
+#include "verification/runs/published_number.h"
 
 namespace emmy::verification {
 namespace {
 
 using Json = nlohmann::json;
-
-double Number(const Json& json) {
-  double value = 0.0;
-  // Rounds correctly, however many digits there are.
-  if (!absl::SimpleAtod(json.get<std::string>(), &value)) {
-    throw Json::other_error::create(501, "not a number: " + json.dump(), &json);
-  }
-  return value;
-}
 
 ExternalTable TableFromJson(const Json& json) {
   const Json& rows = json.at("rows");
@@ -33,9 +24,9 @@ ExternalTable TableFromJson(const Json& json) {
                       .values = MatrixXd(num_rows, num_columns)};
   for (Eigen::Index i = 0; i < num_rows; ++i) {
     const Json& row = rows.at(static_cast<size_t>(i));
-    table.time(i) = Number(row.at(0));
+    table.time(i) = PublishedNumber(row.at(0));
     for (Eigen::Index j = 0; j < num_columns; ++j) {
-      table.values(i, j) = Number(row.at(static_cast<size_t>(j) + 1));
+      table.values(i, j) = PublishedNumber(row.at(static_cast<size_t>(j) + 1));
     }
   }
   return table;

@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "emmy/model/model_builder.h"
 #include "emmy/numerics/rotation.h"
 #include "verification/exact/free_rigid_body.h"
+#include "verification/runs/larger.h"
 #include "verification/runs/paper_box.h"
 #include "verification/runs/run.h"
 
@@ -15,14 +15,6 @@ namespace {
 
 int64_t NumReadings(const ReadingTimes& times) {
   return std::llround(times.duration / times.interval);
-}
-
-// The larger, or NaN if one is: std::max would drop it.
-double Larger(double a, double b) {
-  if (std::isnan(a) || std::isnan(b)) {
-    return std::numeric_limits<double>::quiet_NaN();
-  }
-  return std::max(a, b);
 }
 
 }  // namespace

@@ -3,12 +3,14 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
+#include <iterator>
 #include <limits>
 #include <nlohmann/json.hpp>
 
 #include "absl/status/status.h"
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_format.h"
+#include "absl/strings/str_replace.h"
 
 namespace emmy::verification {
 namespace {
@@ -96,7 +98,7 @@ TimingRun Collect(const Json& json) {
   const Json& context = json.at("context");
   run.date = context.value("date", "");
   run.processor = ProcessorText(context);
-  run.build = context.value("library_build_type", "");
+  run.program = context.value("emmy", "");
   std::vector<std::string> order;
   std::map<std::string, Samples> all;
   for (const Json& row : json.at("benchmarks")) {
@@ -137,7 +139,11 @@ const Timing* TimingRun::Find(const std::string& name) const {
 absl::StatusOr<TimingRun> ReadTimings(const std::string& path) {
   std::ifstream in(path);
   if (!in) return absl::NotFoundError(absl::StrCat(path, ": cannot open"));
-  const Json json = Json::parse(in, nullptr, /*allow_exceptions=*/false);
+  std::string text((std::istreambuf_iterator<char>(in)),
+                   std::istreambuf_iterator<char>());
+  // Spreads of counters that are zero are written so, which is not JSON.
+  absl::StrReplaceAll({{": NaN", ": null"}, {": Infinity", ": null"}}, &text);
+  const Json json = Json::parse(text, nullptr, /*allow_exceptions=*/false);
   if (json.is_discarded()) {
     return absl::DataLossError(absl::StrCat(path, ": not valid JSON"));
   }

@@ -27,7 +27,7 @@ struct Timing {
 struct TimingRun {
   std::string date;
   std::string processor;  // Number, clock and data caches.
-  std::string build;      // "release" or "debug", of the benchmark library.
+  std::string program;    // Version, compiler and flags of what was timed.
   std::vector<Timing> timings;
 
   // Null if there is none, or it ended with an error.

@@ -6,7 +6,6 @@
 
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_format.h"
-#include "emmy/base/build_info.h"
 #include "verification/runs/fit.h"
 
 namespace emmy::verification {
@@ -61,6 +60,11 @@ std::string GrowthRows(const TimingRun& run) {
       if (timing == nullptr) continue;
       sizes.push_back(size);
       times.push_back(timing->median);
+    }
+    if (sizes.size() < growth.sizes.size()) {
+      absl::StrAppendFormat(&text, "| %s | not measured | <= %g | |\n",
+                            growth.sentence, growth.target);
+      continue;
     }
     const double exponent = FitPower(sizes, times);
     absl::StrAppendFormat(&text, "| %s | %.2f | <= %g | %s |\n",
@@ -152,13 +156,12 @@ const std::vector<Growth>& Growths() {
 }
 
 std::string TimingReport(const TimingRun& run) {
-  const BuildInfo build = GetBuildInfo();
   std::string text = absl::StrFormat(
-      "Measured %s on %s; emmy %s, %s, %s. Medians of the processor time of "
+      "Measured %s on %s; emmy %s. Medians of the processor time of "
       "the repetitions, for batches of one step of one body; the spread is the "
       "largest less the smallest over the median. A run whose laws are not "
       "kept has no time.\n\n",
-      run.date, run.processor, build.version, build.compiler, build.flags);
+      run.date, run.processor, run.program);
   absl::StrAppend(&text, "### Ratios\n\n", RatioRows(run), "\n### Growth\n\n",
                   GrowthRows(run), "\n### Times\n\n", TimeRows(run));
   return text;
@@ -172,8 +175,8 @@ std::string CompareTimings(const TimingRun& before, const TimingRun& now) {
     const double ratio = timing.median / old->median;
     const double noise = std::max(0.05, timing.spread + old->spread);
     if (std::abs(ratio - 1.0) <= noise) continue;
-    absl::StrAppendFormat(&text, "%-45s %s: %s, was %s (x %.2f)\n", timing.name,
-                          ratio > 1.0 ? "slower" : "faster",
+    absl::StrAppendFormat(&text, "- `%s` %s: %s, was %s (x %.2f)\n",
+                          timing.name, ratio > 1.0 ? "slower" : "faster",
                           TimeText(timing.median), TimeText(old->median),
                           ratio);
   }

@@ -10,7 +10,8 @@
 
 namespace emmy::verification {
 
-// A time over another of the same run, and what it should be at most.
+// A time over another of the same run, and what it should be: at most, or at
+// least, the target that the project has set itself.
 struct Ratio {
   std::string sentence;
   std::string numerator;    // Names of benchmarks.
@@ -21,7 +22,8 @@ struct Ratio {
 
 const std::vector<Ratio>& Ratios();
 
-// p of time = C size^p over the benchmarks NAME:<size>; what it should be.
+// p of time = C size^p over benchmarks of several sizes, and what it should be
+// at most.
 struct Growth {
   std::string sentence;
   std::vector<std::pair<double, std::string>> sizes;  // Size, benchmark.

@@ -7,6 +7,8 @@
 
 #include <string>
 
+#include "emmy/base/export.h"
+
 namespace emmy {
 
 struct BuildInfo {
@@ -15,7 +17,7 @@ struct BuildInfo {
   std::string flags;     // "-O2 -DNDEBUG -ffp-contract=off"
 };
 
-BuildInfo GetBuildInfo();
+EMMY_EXPORT BuildInfo GetBuildInfo();
 
 }  // namespace emmy
 

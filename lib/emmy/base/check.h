@@ -9,11 +9,14 @@
 #include <sstream>
 #include <string>
 
+#include "emmy/base/export.h"
+
 namespace emmy {
 
 // Writes file, line, the condition and `values` to standard error; aborts.
-[[noreturn]] void FailCheck(const char* file, int line, const char* condition,
-                            const std::string& values);
+[[noreturn]] EMMY_EXPORT void FailCheck(const char* file, int line,
+                                        const char* condition,
+                                        const std::string& values);
 
 }  // namespace emmy
 

@@ -13,23 +13,24 @@
 #ifndef EMMY_DIAGNOSTICS_ANGULAR_VELOCITY_H_
 #define EMMY_DIAGNOSTICS_ANGULAR_VELOCITY_H_
 
+#include "emmy/base/export.h"
 #include "emmy/base/types.h"
 #include "emmy/numerics/polar.h"
 
 namespace emmy {
 
 // (ATT-2); `polar` is the decomposition of R.
-Vector3d PolarAngularVelocity(const PolarDecomposition& polar,
-                              const Matrix3d& rates);
+EMMY_EXPORT Vector3d PolarAngularVelocity(const PolarDecomposition& polar,
+                                          const Matrix3d& rates);
 
 // (ATT-3)
-Vector3d ExactPolarAngularVelocity(const PolarDecomposition& polar,
-                                   const Matrix3d& rates);
+EMMY_EXPORT Vector3d ExactPolarAngularVelocity(const PolarDecomposition& polar,
+                                               const Matrix3d& rates);
 
 // (ATT-4)
-Vector3d LockedAngularVelocity(const Matrix3d& second_moment,
-                               const Matrix3d& gradients,
-                               const Matrix3d& rates);
+EMMY_EXPORT Vector3d LockedAngularVelocity(const Matrix3d& second_moment,
+                                           const Matrix3d& gradients,
+                                           const Matrix3d& rates);
 
 }  // namespace emmy
 

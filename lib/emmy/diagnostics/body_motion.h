@@ -5,6 +5,7 @@
 
 #include <cstddef>
 
+#include "emmy/base/export.h"
 #include "emmy/base/types.h"
 #include "emmy/model/model.h"
 #include "emmy/model/state.h"
@@ -25,7 +26,8 @@ struct BodyMotion {
 };
 
 // `body` is an index of model.bodies().
-BodyMotion ObserveBody(const Model& model, const State& state, size_t body);
+EMMY_EXPORT BodyMotion ObserveBody(const Model& model, const State& state,
+                                   size_t body);
 
 }  // namespace emmy
 

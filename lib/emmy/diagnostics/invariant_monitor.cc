@@ -56,4 +56,21 @@ void InvariantMonitor::Observe(const State& state) {
          &angular_momentum_);
 }
 
+InvariantExtremes InvariantMonitor::extremes() const {
+  return {.max_error = {energy_.max_error, momentum_.max_error,
+                        angular_momentum_.max_error},
+          .scale = {energy_.scale, momentum_.scale, angular_momentum_.scale}};
+}
+
+void InvariantMonitor::Resume(const State& state,
+                              const InvariantExtremes& extremes) {
+  energy_.max_error = extremes.max_error[0];
+  energy_.scale = extremes.scale[0];
+  momentum_.max_error = extremes.max_error[1];
+  momentum_.scale = extremes.scale[1];
+  angular_momentum_.max_error = extremes.max_error[2];
+  angular_momentum_.scale = extremes.scale[2];
+  Observe(state);
+}
+
 }  // namespace emmy

@@ -3,6 +3,9 @@
 #ifndef EMMY_DIAGNOSTICS_INVARIANT_MONITOR_H_
 #define EMMY_DIAGNOSTICS_INVARIANT_MONITOR_H_
 
+#include <array>
+
+#include "emmy/base/export.h"
 #include "emmy/base/types.h"
 #include "emmy/diagnostics/invariants.h"
 #include "emmy/model/model.h"
@@ -19,7 +22,7 @@ struct ConservedQuantities {
 
 // Gravity, forces and anything fixed to the ground take momentum and angular
 // momentum about the origin; a torque takes angular momentum alone.
-ConservedQuantities QuantitiesConservedBy(const Model& model);
+EMMY_EXPORT ConservedQuantities QuantitiesConservedBy(const Model& model);
 
 // Errors are against the start, differences in extended precision, over every
 // observed state. `scale` is the largest kinetic + penalty + elastic energy,
@@ -49,11 +52,23 @@ struct MomentumRecord {
   }
 };
 
-class InvariantMonitor {
+// The largest errors and scales so far of energy, momentum and angular
+// momentum: what a monitor cannot know from a single state.
+struct InvariantExtremes {
+  std::array<double, 3> max_error = {};
+  std::array<double, 3> scale = {};
+};
+
+class EMMY_EXPORT InvariantMonitor {
  public:
   InvariantMonitor(const Model& model, const State& initial);
 
   void Observe(const State& state);
+
+  InvariantExtremes extremes() const;
+
+  // Goes on with `state` as a monitor that had these extremes there.
+  void Resume(const State& state, const InvariantExtremes& extremes);
 
   const Invariants& latest() const { return latest_; }
   const EnergyRecord& energy() const { return energy_; }

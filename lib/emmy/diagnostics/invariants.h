@@ -14,6 +14,7 @@
 #define EMMY_DIAGNOSTICS_INVARIANTS_H_
 
 #include "emmy/base/double_double.h"
+#include "emmy/base/export.h"
 #include "emmy/base/types.h"
 #include "emmy/model/model.h"
 #include "emmy/model/state.h"
@@ -39,11 +40,12 @@ struct Invariants {
   }
 };
 
-Invariants MeasureInvariants(const Model& model, const State& state);
+EMMY_EXPORT Invariants MeasureInvariants(const Model& model,
+                                         const State& state);
 
 // Largest difference between a carried strain and (ANCF-4) of the coordinates
 // with their compensations, in extended precision [-].
-double StrainGap(const Model& model, const State& state);
+EMMY_EXPORT double StrainGap(const Model& model, const State& state);
 
 }  // namespace emmy
 

@@ -5,6 +5,7 @@
 
 #include <cstddef>
 
+#include "emmy/base/export.h"
 #include "emmy/base/types.h"
 #include "emmy/model/model.h"
 #include "emmy/model/point.h"
@@ -18,11 +19,12 @@ struct PointMotion {
 };
 
 // Any point: of a body, a node, or fixed in space (velocity zero).
-PointMotion ObservePoint(const Model& model, const State& state,
-                         const Point& point);
+EMMY_EXPORT PointMotion ObservePoint(const Model& model, const State& state,
+                                     const Point& point);
 
 // `node` is an index of model.nodes(); also of nodes that are tied.
-PointMotion ObserveNode(const Model& model, const State& state, size_t node);
+EMMY_EXPORT PointMotion ObserveNode(const Model& model, const State& state,
+                                    size_t node);
 
 struct LineObservation {
   double strain = 0.0;  // Green–Lagrange; a spring: see LineElement::Strain.
@@ -30,8 +32,8 @@ struct LineObservation {
 };
 
 // `line` is an index of model.lines().
-LineObservation ObserveLine(const Model& model, const State& state,
-                            size_t line);
+EMMY_EXPORT LineObservation ObserveLine(const Model& model, const State& state,
+                                        size_t line);
 
 }  // namespace emmy
 

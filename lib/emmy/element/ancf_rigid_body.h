@@ -23,12 +23,13 @@
 #include <array>
 
 #include "absl/status/statusor.h"
+#include "emmy/base/export.h"
 #include "emmy/base/types.h"
 #include "emmy/element/rigid_body_inertia.h"
 
 namespace emmy {
 
-class AncfRigidBody {
+class EMMY_EXPORT AncfRigidBody {
  public:
   static constexpr int kNumStrains = 6;
   static constexpr int kNumCoordinates = 12;

@@ -26,10 +26,11 @@
 #define EMMY_ELEMENT_LINE_ELEMENT_H_
 
 #include "emmy/base/double_double.h"
+#include "emmy/base/export.h"
 
 namespace emmy {
 
-class LineElement {
+class EMMY_EXPORT LineElement {
  public:
   enum class Kind { kTruss, kCable, kSpring };
 

@@ -9,11 +9,12 @@
 #define EMMY_ELEMENT_RIGID_BODY_INERTIA_H_
 
 #include "absl/status/statusor.h"
+#include "emmy/base/export.h"
 #include "emmy/base/types.h"
 
 namespace emmy {
 
-struct RigidBodyInertia {
+struct EMMY_EXPORT RigidBodyInertia {
   double mass = 0.0;                          // M [kg]
   double volume = 0.0;                        // V [m³], scales the penalty.
   Matrix3d second_moment = Matrix3d::Zero();  // Mⁱʲ [kg m²]

@@ -186,11 +186,11 @@ class AncfPackStep {
       const Flag solved_well =
           And(solved * (solved_before + solved) <= size * negligible,
               change_of_frames * size <= negligible);
-      const Flag strain_done = strain_monitor.Update(size, strain_floor, i > 0);
+      const Flag strain_done = strain_monitor.Update(size, strain_floor);
       const Flag rotation_done = rotation_monitor.Update(
           MaxAbsolute(moment) *
               Load(block_.inverse_smallest_moment_sum + lane_),
-          rotation_floor, i > 0);
+          rotation_floor);
       Flag done =
           Or(Without(solved_well, mass_only), And(strain_done, rotation_done));
       if (!None(And(active, done))) {

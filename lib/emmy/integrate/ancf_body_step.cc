@@ -14,7 +14,10 @@ namespace {
 
 constexpr double kUnitRoundoff = std::numeric_limits<double>::epsilon() / 2.0;
 
-double MaxAbs(const Matrix3d& m) { return m.cwiseAbs().maxCoeff(); }
+// NaN if any entry is.
+double MaxAbs(const Matrix3d& m) {
+  return m.cwiseAbs().maxCoeff<Eigen::PropagateNaN>();
+}
 
 // The moment Σ ēᵢ × rᵢ left by a residual. Judged apart from the corrections,
 // whose strain part is rounded 1/|Δe| times coarser and would hide a rotation
@@ -134,8 +137,9 @@ BodyStepResult AncfBodyStep::Iterate(const AncfBodyStart& start,
                                      bool full_newton,
                                      Matrix3d* rate_increment) const {
   BodyStepResult result;
-  // Strain is defined to its floor only, and what a step leaves does no work.
-  StagnationMonitor strain_monitor(/*negligible=*/0x1p-6);
+  // Where the penalty is stiff, strain is defined to its floor only, and what a
+  // step leaves of it does no work: the mean strain rate vanishes.
+  StagnationMonitor strain_monitor(mass_dominates_ ? 0x1p-10 : 0x1p-6);
   StagnationMonitor rotation_monitor;
   double previous = std::numeric_limits<double>::infinity();
   for (int i = 1; i <= options_.max_iterations; ++i) {

@@ -77,10 +77,10 @@ struct ConventionalBlock {
   CompensatedLanes<3> angular_velocity;
   ExtrapolationLanes<3> acceleration;
 
-  alignas(64) Lanes inertia[3];  // Jᵢ
-  Lanes inverse_inertia[3];
-  Lanes coupling[3];  // ½ Δt (J_k − J_j)/Jᵢ, i, j, k cyclic.
-  Lanes inverse_smallest_inertia;
+  // aᵢ of (BATCH-3) as a pair; twice the largest |aᵢ|.
+  alignas(64) Lanes coupling[3];
+  Lanes coupling_low[3];
+  Lanes twice_largest_coupling;
 };
 
 }  // namespace emmy

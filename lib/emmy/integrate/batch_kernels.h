@@ -1,5 +1,5 @@
 // Steps of a block of bodies, with the instruction set chosen when the program
-// runs. The bits are the same with every one of them.
+// runs. The bits are the same with every one that has fused multiply-add.
 
 #ifndef EMMY_INTEGRATE_BATCH_KERNELS_H_
 #define EMMY_INTEGRATE_BATCH_KERNELS_H_

@@ -1,5 +1,6 @@
 #include "emmy/integrate/batch_lanes.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 
@@ -128,15 +129,18 @@ void SetConstants(const AncfRigidBody& body, const AncfBodyStep& step,
 void SetConstants(const ConventionalRigidBody& body, double time_step, int lane,
                   ConventionalBlock* block) {
   const Vector3d inertia = body.tensor().diagonal();
-  Scatter(inertia.data(), lane, block->inertia);
+  double largest = 0.0;
   for (int i = 0; i < 3; ++i) {
     const auto k = static_cast<size_t>(i);
-    block->inverse_inertia[k][lane] = 1.0 / inertia(i);
-    block->coupling[k][lane] = 0.5 * time_step *
-                               (inertia((i + 2) % 3) - inertia((i + 1) % 3)) /
-                               inertia(i);
+    const DoubleDouble coupling = DoubleDouble(time_step) *
+                                  (DoubleDouble(inertia((i + 2) % 3)) -
+                                   DoubleDouble(inertia((i + 1) % 3))) /
+                                  DoubleDouble(inertia(i));
+    block->coupling[k][lane] = coupling.hi;
+    block->coupling_low[k][lane] = coupling.lo;
+    largest = std::max(largest, std::abs(coupling.hi));
   }
-  block->inverse_smallest_inertia[lane] = 1.0 / inertia.minCoeff();
+  block->twice_largest_coupling[lane] = 2.0 * largest;
 }
 
 void LoadLane(const ModelBody& body, const State& state, int lane,
@@ -227,7 +231,13 @@ BodyStepResult TakeOrdinaryStep(const ConventionalBodyStep& body_step,
   if (result.termination != Termination::kConverged) return result;
   AdvanceCentre(step, lane, &block->centre);
   Add(increment.quaternion.data(), lane, &block->quaternion);
-  Add(increment.angular_velocity.data(), lane, &block->angular_velocity);
+  for (size_t i = 0; i < 3; ++i) {
+    const auto k = static_cast<Eigen::Index>(i);
+    AddCompensated(increment.angular_velocity(k),
+                   increment.angular_velocity_low(k),
+                   block->angular_velocity.value[i][lane],
+                   block->angular_velocity.compensation[i][lane]);
+  }
   Predict(step, increment.angular_velocity.data(), lane, &block->acceleration);
   return result;
 }

@@ -5,8 +5,10 @@
 // (ancf_body_step.h, conventional_body_step.h), which stand by: a body whose
 // iteration is too slow with the closed-form tangent takes that step by them,
 // and bodies that are not in principal axes take all steps so. The results are
-// the same bits for any instruction set, number of threads, division of a run
-// into calls, and whatever other bodies there are.
+// the same bits for any number of threads, division of a run into calls, and
+// whatever other bodies there are; and for any instruction set that has fused
+// multiply-add (x86-64 from AVX2 on, Arm). Those without it agree with each
+// other, and with these to round-off.
 //
 // Not covered: anything attached to a body (EnergyMomentumIntegrator), orders
 // above two, a tolerance above round-off.

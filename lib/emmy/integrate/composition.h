@@ -23,9 +23,9 @@ namespace emmy {
 bool IsCompositionOrder(int order);
 
 // The sizes of the steps Φ that make one of size `time_step` [s], in their
-// sequence: 1, 10 or 18 of them. A palindrome whose sum is `time_step`
-// exactly, without rounding; those for −Δt are the negatives. `order` must be
-// one there is, `time_step` normal.
+// sequence: 1, 10 or 18 of them. A palindrome whose exact sum is `time_step`;
+// those for −Δt are the negatives. `order` must be one there is, `time_step`
+// normal.
 std::vector<double> SubSteps(int order, double time_step);
 
 }  // namespace emmy

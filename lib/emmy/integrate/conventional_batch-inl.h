@@ -1,9 +1,12 @@
 // One step of several free conventional bodies in principal axes, one a lane.
 //
-// The residual is that of (CRB-4), divided by Jᵢ. The Jacobian (CRB-5) is then
-// 1 + O with Oᵢⱼ = ½ Δt (J_k − J_j)/Jᵢ W̄_k, and so on, of the size ½ |W|Δt;
-// its inverse is taken as 1 − O + O², which leaves (½ |W|Δt)³ of a
-// correction.                                                      (BATCH-3)
+// In principal axes (CRB-4), divided by Jᵢ, is
+//   ΔWᵢ + aᵢ W̄ⱼ W̄ₖ = 0,  aᵢ = Δt (Jₖ − Jⱼ)/Jᵢ, i, j, k cyclic     (BATCH-3)
+// and its Jacobian 1 + O with Oᵢⱼ = ½ aᵢ W̄ₖ, Oᵢₖ = ½ aᵢ W̄ⱼ, of the size ½
+// |W|Δt. The residual is evaluated in pairs of doubles, aᵢ too, for what its
+// rounding would leave has a mean of its own and adds up. From an extrapolated
+// start one correction r − O r + O² r is then the step: what it leaves is
+// bounded beforehand, by |O|³|r| + |a||r|²/4.
 
 #if defined(EMMY_INTEGRATE_CONVENTIONAL_BATCH_INL_H_) == \
     defined(HWY_TARGET_TOGGLE)
@@ -21,9 +24,9 @@ HWY_BEFORE_NAMESPACE();
 namespace emmy {
 namespace HWY_NAMESPACE {
 
-HWY_INLINE Pack3 Times(const Pack3& a, const Pack3& b) {
-  return {a.x * b.x, a.y * b.y, a.z * b.z};
-}
+struct PackSum3 {
+  PackSum x, y, z;
+};
 
 class ConventionalPackStep {
  public:
@@ -32,12 +35,12 @@ class ConventionalPackStep {
       : step_(step),
         lane_(lane),
         block_(*block),
-        inertia_(Load3(block->inertia, lane)) {}
+        coupling_(Load3(block->coupling, lane)) {}
 
   // Advances the lanes that are alive and converge; returns the others.
   HWY_INLINE Flag Advance() {
     const Flag alive = Broadcast(0.0) < Load(block_.centre.alive + lane_);
-    Pack3 change;
+    PackSum3 change;
     const Flag done = Solve(alive, &change);
     if (All(done)) {
       Commit(Writer<true>(done), change);
@@ -48,103 +51,135 @@ class ConventionalPackStep {
   }
 
  private:
-  static constexpr int kMaxIterations = 12;
+  static constexpr int kMaxIterations = 8;
 
   // W̄
-  HWY_INLINE Pack3 Mean(const Pack3& change) const {
-    return Load3(block_.angular_velocity.value, lane_) +
-           (Load3(block_.angular_velocity.compensation, lane_) +
-            Broadcast(0.5) * change);
+  HWY_INLINE PackSum3 Mean(const Pack3& change) const {
+    const Pack3 low =
+        MulAdd(Broadcast(0.5), change,
+               Load3(block_.angular_velocity.compensation, lane_));
+    const Pack3 high = Load3(block_.angular_velocity.value, lane_);
+    return {FastTwoSum(high.x, low.x), FastTwoSum(high.y, low.y),
+            FastTwoSum(high.z, low.z)};
   }
 
-  // O v, its factors by axis.
-  static HWY_INLINE Pack3 OffDiagonal(const Pack3& coupling, const Pack3& mean,
-                                      const Pack3& v) {
-    return {coupling.x * (mean.z * v.y + mean.y * v.z),
-            coupling.y * (mean.x * v.z + mean.z * v.x),
-            coupling.z * (mean.y * v.x + mean.x * v.y)};
+  // change + a b c for extended a, b and c.
+  HWY_INLINE Pack Residual(Pack change, size_t i, const PackSum& b,
+                           const PackSum& c) const {
+    const Pack a = Load(block_.coupling[i] + lane_);
+    const Pack a_low = Load(block_.coupling_low[i] + lane_);
+    const PackSum product = TwoProduct(b.sum, c.sum);
+    const Pack product_low =
+        MulAdd(b.sum, c.error, MulAdd(b.error, c.sum, product.error));
+    const PackSum term = TwoProduct(a, product.sum);
+    const Pack term_low =
+        MulAdd(a, product_low, MulAdd(a_low, product.sum, term.error));
+    return (change + term.sum) + term_low;
   }
 
-  HWY_INLINE Flag Solve(Flag alive, Pack3* result) {
-    const Pack time_step = Broadcast(step_.time_step);
-    const Pack3 inverse = Load3(block_.inverse_inertia, lane_);
-    const Pack3 coupling = Load3(block_.coupling, lane_);
-    Pack3 change = time_step * Load3(block_.acceleration.next, lane_);
+  // v − O w, with u = ½ W̄.
+  HWY_INLINE Pack3 Less(const Pack3& v, const Pack3& u, const Pack3& w) const {
+    return {NegMulAdd(coupling_.x, MulAdd(u.z, w.y, u.y * w.z), v.x),
+            NegMulAdd(coupling_.y, MulAdd(u.x, w.z, u.z * w.x), v.y),
+            NegMulAdd(coupling_.z, MulAdd(u.y, w.x, u.x * w.y), v.z)};
+  }
+
+  HWY_INLINE Flag Solve(Flag alive, PackSum3* result) {
+    const Pack half = Broadcast(0.5);
+    const Pack twice_largest = Load(block_.twice_largest_coupling + lane_);
+    Pack3 change =
+        Broadcast(step_.time_step) * Load3(block_.acceleration.next, lane_);
     Flag active = alive;
     Flag failed = Without(alive, alive);
-    PackMonitor monitor(0x1p-10);
-    Pack floor = Broadcast(0.0);
-    Pack previous = floor;
-    Pack3 first_mean = change;
+    Pack previous = Broadcast(0.0);
     Pack iterations = Load(block_.centre.iterations + lane_);
     for (int i = 0; i < kMaxIterations; ++i) {
       iterations = iterations + OrZero(active, Broadcast(1.0));
-      const Pack3 mean = Mean(change);
-      const Pack3 momentum = Times(inertia_, mean);
-      const Pack3 residual =
-          Times(inertia_, change) + time_step * Cross(mean, momentum);
+      const PackSum3 mean = Mean(change);
+      const Pack3 residual = {Residual(change.x, 0, mean.y, mean.z),
+                              Residual(change.y, 1, mean.z, mean.x),
+                              Residual(change.z, 2, mean.x, mean.y)};
+      const Pack3 half_mean = half * Pack3{mean.x.sum, mean.y.sum, mean.z.sum};
+      const Pack3 correction =
+          Less(residual, half_mean, Less(residual, half_mean, residual));
+      const PackSum3 corrected = {FastTwoDifference(change.x, correction.x),
+                                  FastTwoDifference(change.y, correction.y),
+                                  FastTwoDifference(change.z, correction.z)};
       if (i == 0) {
-        first_mean = mean;
-        floor =
-            Broadcast(0x1p-53) *
-            (MaxAbsolute(change) +
-             Absolute(time_step) * (MaxAbsolute(mean) * MaxAbsolute(momentum)) *
-                 Load(block_.inverse_smallest_inertia + lane_));
+        *result = corrected;
+      } else {
+        *result = {Choose(active, corrected.x, result->x),
+                   Choose(active, corrected.y, result->y),
+                   Choose(active, corrected.z, result->z)};
       }
-      const Pack3 scaled = Times(inverse, residual);
-      const Pack3 once = scaled - OffDiagonal(coupling, first_mean, scaled);
-      const Pack3 correction = scaled - OffDiagonal(coupling, first_mean, once);
-      change = Choose(active, change - correction, change);
+      change = {result->x.sum, result->y.sum, result->z.sum};
       const Pack size = MaxAbsolute(correction);
-      const Flag done =
-          And(monitor.Update(size, floor, i > 0), IsFinite(change));
-      Flag slow = Without(alive, alive);
+      // |O| in the norm of the largest entry.
+      const Pack contraction = twice_largest * MaxAbsolute(half_mean);
+      const Pack left =
+          MulAdd(contraction * contraction, contraction, twice_largest * size) *
+          size;
+      const Flag small = left <= Broadcast(0x1p-63) * MaxAbsolute(change);
+      const Flag done = And(small, IsFinite(change));
+      active = Without(active, done);
+      if (None(active)) break;
       if (i > 0) {
-        slow = And(Broadcast(1e3) * floor < size,
-                   Broadcast(0.3) * previous < size);
+        const Flag slow = And(active, half * previous < size);
+        failed = Or(failed, slow);
+        active = Without(active, slow);
+        if (None(active)) break;
       }
       previous = size;
-      active = Without(active, done);
-      slow = And(active, slow);
-      failed = Or(failed, slow);
-      active = Without(active, slow);
-      if (None(active)) break;
     }
     Store(iterations, block_.centre.iterations + lane_);
-    *result = change;
     return Without(Without(alive, failed), active);
   }
 
-  template <bool kAll>
-  HWY_INLINE void Commit(const Writer<kAll>& writer, const Pack3& change) {
-    AdvanceCentre(step_, writer, lane_, &block_.centre);
-    // (ROT-5)
-    const Pack3 theta = Broadcast(step_.time_step) * Mean(change);
+  // 1/√(1 + s) − 1, to a rounding of itself.
+  static HWY_INLINE Pack InverseRootLessOne(Pack s) {
+    // The binomial series to s⁵ is good to 2⁻⁵⁵ of itself below 2⁻¹¹.
+    Pack series = MulAdd(Broadcast(-63.0 / 256.0), s, Broadcast(35.0 / 128.0));
+    series = MulAdd(series, s, Broadcast(-5.0 / 16.0));
+    series = MulAdd(series, s, Broadcast(3.0 / 8.0));
+    series = MulAdd(series, s, Broadcast(-0.5)) * s;
+    const Flag is_small = s < Broadcast(0x1p-11);
+    if (All(is_small)) return series;
     const Pack one = Broadcast(1.0);
+    const Pack n = SquareRoot(one + s);
+    const Pack closed = (Broadcast(0.0) - s) / (n * (one + n));
+    return Choose(is_small, series, closed);
+  }
+
+  template <bool kAll>
+  HWY_INLINE void Commit(const Writer<kAll>& writer, const PackSum3& change) {
+    AdvanceCentre(step_, writer, lane_, &block_.centre);
     const Pack half = Broadcast(0.5);
-    const Pack quarter_square = Broadcast(0.25) * Dot(theta, theta);
-    const Pack n = SquareRoot(one + quarter_square);
-    const Pack inverse = one / (n * (one + n));
-    const Pack scalar = Broadcast(0.0) - quarter_square * inverse;
-    // 1/n, without a second division.
-    const Pack3 v = (half * ((one + n) * inverse)) * theta;
+    const Pack3 high = {change.x.sum, change.y.sum, change.z.sum};
+    CompensatedLanes<3>& rate = block_.angular_velocity;
+    // (ROT-5): ½ Θ = Δt ½ W̄.
+    const Pack3 mean = Load3(rate.value, lane_) +
+                       MulAdd(half, high, Load3(rate.compensation, lane_));
+    const Pack3 half_turn = Broadcast(0.5 * step_.time_step) * mean;
+    const Pack scalar = InverseRootLessOne(Dot(half_turn, half_turn));
+    const Pack3 v = MulAdd(scalar, half_turn, half_turn);
     CompensatedLanes<4>& q = block_.quaternion;
     const Pack w = Load(q.value[0] + lane_);
     const Pack3 u = Load3(q.value + 1, lane_);
-    const Pack3 vector = (w * v + scalar * u) + Cross(u, v);
-    writer.Add(w * scalar - Dot(u, v), q.value[0] + lane_,
+    const Pack3 vector = MulAdd(w, v, MulAdd(scalar, u, Cross(u, v)));
+    writer.Add(MulSub(w, scalar, Dot(u, v)), q.value[0] + lane_,
                q.compensation[0] + lane_);
     writer.Add3(vector, q.value + 1, q.compensation + 1, lane_);
-    writer.Add3(change, block_.angular_velocity.value,
-                block_.angular_velocity.compensation, lane_);
-    const Pack3 acceleration[1] = {Broadcast(step_.inverse_time_step) * change};
+    writer.Add(change.x, rate.value[0] + lane_, rate.compensation[0] + lane_);
+    writer.Add(change.y, rate.value[1] + lane_, rate.compensation[1] + lane_);
+    writer.Add(change.z, rate.value[2] + lane_, rate.compensation[2] + lane_);
+    const Pack3 acceleration[1] = {Broadcast(step_.inverse_time_step) * high};
     Predict(acceleration, writer, lane_, &block_.acceleration);
   }
 
   const BatchStep& step_;
   int lane_;
   ConventionalBlock& block_;
-  Pack3 inertia_;
+  Pack3 coupling_;
 };
 
 }  // namespace HWY_NAMESPACE

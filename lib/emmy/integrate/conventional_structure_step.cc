@@ -472,7 +472,7 @@ BodyStepResult ConventionalStructureStep::Iterate() {
     const double moment = Moment().cwiseAbs().maxCoeff();
     correction_ = factor_.solve(residual_);
     unknown_ -= correction_;
-    result.correction = correction_.cwiseAbs().maxCoeff();
+    result.correction = correction_.cwiseAbs().maxCoeff<Eigen::PropagateNaN>();
     if (!std::isfinite(result.correction)) {
       result.termination = Termination::kNonFinite;
       return result;
@@ -523,6 +523,7 @@ void ConventionalStructureStep::Commit(State& state) const {
     work += time_step_ * torque.torque.dot(body.rotation * body.mean_omega);
   }
   state.load_work.Add(work);
+  Extrapolation::Errors errors{};
   for (size_t i = 0; i < bodies_.size(); ++i) {
     const Body& body = bodies_[i];
     const Index q = body.body->position_offset;
@@ -533,14 +534,21 @@ void ConventionalStructureStep::Commit(State& state) const {
                        CayleyQuaternionIncrement(body.quaternion,
                                                  time_step_ * body.mean_omega));
     state.velocity.Add(w, change);
-    state.acceleration.next.segment<6>(w) = change / time_step_;
+    state.acceleration.Add(w, change / time_step_, &errors);
   }
   for (size_t i = 0; i < nodes_.size(); ++i) {
     const auto [q, w, moment] = *nodes_[i].vector;
     const auto change = unknown_.segment<3>(NodeRow(static_cast<int>(i)));
     state.position.Add(q, nodes_[i].increment);
     state.velocity.Add(w, change);
-    state.acceleration.next.segment<3>(w) = change / time_step_;
+    state.acceleration.Add(w, change / time_step_, &errors);
+  }
+  const int order = Extrapolation::BestOrder(errors);
+  for (const Body& body : bodies_) {
+    state.acceleration.Predict(body.body->velocity_offset, 6, order);
+  }
+  for (const Node& node : nodes_) {
+    state.acceleration.Predict(node.vector->velocity_offset, 3, order);
   }
   for (const Line& line : lines_) {
     const Index s = line.line->strain_offset;

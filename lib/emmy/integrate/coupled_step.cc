@@ -16,8 +16,9 @@ namespace {
 
 constexpr double kUnitRoundoff = std::numeric_limits<double>::epsilon() / 2.0;
 
+// NaN if any entry is.
 double MaxAbs(const Matrix3Xd& m) {
-  return m.size() > 0 ? m.cwiseAbs().maxCoeff() : 0.0;
+  return m.size() > 0 ? m.cwiseAbs().maxCoeff<Eigen::PropagateNaN>() : 0.0;
 }
 
 }  // namespace
@@ -170,6 +171,14 @@ CoupledStep::Floors CoupledStep::RoundingFloors() const {
           kUnitRoundoff * std::sqrt(moment), kUnitRoundoff * std::sqrt(work)};
 }
 
+bool CoupledStep::Restore(const KeptTangent& kept) {
+  renew_ = true;
+  if (kept.matrix.size() == 0) return true;
+  if (!tangent_.Restore(kept)) return false;
+  renew_ = false;
+  return true;
+}
+
 bool CoupledStep::Renew() {
   renew_ = false;
   return tangent_.Factorize(Point());
@@ -210,7 +219,10 @@ BodyStepResult CoupledStep::Iterate(bool exact) {
     end_.noalias() = mean_ + 0.5 * dq_;
     if (!exact) {
       tangent_.FollowBodies(mean_, end_);
-      if (renew_ || options_.always_factorize) {
+      // A small factor costs less than the iterations it saves.
+      const bool cheap =
+          i == 1 && tangent_.method() == SymmetricFactor::Method::kDense;
+      if (renew_ || cheap || options_.always_factorize) {
         renewed = true;
         if (!Renew()) {
           result.termination = Termination::kSingularTangent;

@@ -12,8 +12,9 @@
 //
 // The residual is exact and iterated to round-off; corrections come from a
 // kept symmetric tangent, [K, Gᵀ; G, −κ] [δw; δ(Δt λ)] = [r; 2 G w̄]   (EM-10)
-// (see coupled_tangent.h), renewed only when convergence slows. κ > 0 is
-// small, so that nearly dependent joints do no harm.
+// (see coupled_tangent.h), renewed only when convergence slows, or in every
+// step where it is dense and cheap. κ > 0 is small, so that nearly dependent
+// joints do no harm.
 
 #ifndef EMMY_INTEGRATE_COUPLED_STEP_H_
 #define EMMY_INTEGRATE_COUPLED_STEP_H_
@@ -52,6 +53,10 @@ class CoupledStep {
 
   // The body, line or node with the largest residual in the last iteration.
   std::string WorstPart() const;
+
+  // What is kept from step to step, and back to it; see CoupledTangent.
+  KeptTangent Keep() const { return renew_ ? KeptTangent{} : tangent_.Keep(); }
+  bool Restore(const KeptTangent& kept);
 
   int num_factorizations() const { return tangent_.num_factorizations(); }
 

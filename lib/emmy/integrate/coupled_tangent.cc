@@ -179,15 +179,36 @@ void CoupledTangent::Assemble(const TangentPoint& point) {
 }
 
 bool CoupledTangent::Factorize(const TangentPoint& point) {
-  turn_.setIdentity();
-  for (int v = 0; v < structure_->num_vectors(); ++v) {
-    if (!in_body_[static_cast<size_t>(v)]) SetRotation(v, turn_);
-  }
+  TurnNodes(Matrix3d::Identity());
   Assemble(point);
   ++num_factorizations_;
   is_factorized_ = factor_.Factorize(matrix_);
   positions_ = point.mean_positions;
   return is_factorized_;
+}
+
+KeptTangent CoupledTangent::Keep() const {
+  return {.matrix = matrix_.values(), .positions = positions_, .turn = turn_};
+}
+
+bool CoupledTangent::Restore(const KeptTangent& kept) {
+  is_factorized_ = false;
+  if (kept.matrix.size() != matrix_.values().size() ||
+      kept.positions.cols() != structure_->num_vectors()) {
+    return false;
+  }
+  matrix_.SetValues(kept.matrix);
+  positions_ = kept.positions;
+  TurnNodes(kept.turn);
+  is_factorized_ = factor_.Factorize(matrix_);
+  return is_factorized_;
+}
+
+void CoupledTangent::TurnNodes(const Matrix3d& turn) {
+  turn_ = turn;
+  for (int v = 0; v < structure_->num_vectors(); ++v) {
+    if (!in_body_[static_cast<size_t>(v)]) SetRotation(v, turn_);
+  }
 }
 
 void CoupledTangent::SetRotation(int vector, const Matrix3d& rotation) {
@@ -233,10 +254,7 @@ void CoupledTangent::FollowStructure(const Matrix3Xd& mean_positions) {
   if ((svd.matrixU() * svd.matrixV().transpose()).determinant() < 0.0) {
     signs(2) = -1.0;
   }
-  turn_ = svd.matrixU() * signs.asDiagonal() * svd.matrixV().transpose();
-  for (int v = 0; v < structure_->num_vectors(); ++v) {
-    if (!in_body_[static_cast<size_t>(v)]) SetRotation(v, turn_);
-  }
+  TurnNodes(svd.matrixU() * signs.asDiagonal() * svd.matrixV().transpose());
 }
 
 void CoupledTangent::FollowBodies(const Matrix3Xd& mean_positions,

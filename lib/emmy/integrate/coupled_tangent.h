@@ -30,6 +30,14 @@ struct TangentPoint {
   const VectorXd& line_derivative;  // t'
 };
 
+// What later steps need of a factorisation: a run that is taken up again
+// repeats every bit only with the same factors.
+struct KeptTangent {
+  VectorXd matrix;      // Entries of A when it was factorised; none: not kept.
+  Matrix3Xd positions;  // q̄ at that point.
+  Matrix3d turn = Matrix3d::Identity();  // Of the whole since then.
+};
+
 class CoupledTangent {
  public:
   // `structure` must outlive the tangent.
@@ -41,6 +49,12 @@ class CoupledTangent {
 
   // True once Factorize has succeeded.
   bool is_factorized() const { return is_factorized_; }
+
+  // The factorisation as it is now, and back to it in a tangent of the same
+  // structure and step. Restore is false, and nothing is factorised, if the
+  // sizes do not fit or the matrix cannot be factorised.
+  KeptTangent Keep() const;
+  bool Restore(const KeptTangent& kept);
 
   // Frames of the nodes: how the whole has turned since the factorisation.
   void FollowStructure(const Matrix3Xd& mean_positions);
@@ -60,6 +74,7 @@ class CoupledTangent {
   static SymmetricBlockMatrix MakeMatrix(const Structure& structure);
   void FindSlots();
   void Assemble(const TangentPoint& point);
+  void TurnNodes(const Matrix3d& turn);
   void SetRotation(int vector, const Matrix3d& rotation);
   void AddBodies();
   void AddLines(const TangentPoint& point);

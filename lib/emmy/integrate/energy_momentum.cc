@@ -39,6 +39,12 @@ EnergyMomentumIntegrator::EnergyMomentumIntegrator(
       structures_(std::make_unique<const std::vector<Structure>>(
           SplitIntoStructures(model))) {}
 
+EnergyMomentumIntegrator::EnergyMomentumIntegrator(
+    EnergyMomentumIntegrator&&) noexcept = default;
+EnergyMomentumIntegrator& EnergyMomentumIntegrator::operator=(
+    EnergyMomentumIntegrator&&) noexcept = default;
+EnergyMomentumIntegrator::~EnergyMomentumIntegrator() = default;
+
 absl::Status EnergyMomentumIntegrator::MakeSteps(const Model& model) {
   const ModelStepOptions step_options{
       .newton = {.tolerance = options_.tolerance,
@@ -73,6 +79,33 @@ int EnergyMomentumIntegrator::num_factorizations() const {
   int sum = 0;
   for (const ModelStep& step : steps_) sum += step.num_factorizations();
   return sum;
+}
+
+std::vector<KeptTangent> EnergyMomentumIntegrator::Keep() const {
+  std::vector<KeptTangent> kept;
+  for (const ModelStep& step : steps_) {
+    for (const CoupledStep& part : step.coupled()) kept.push_back(part.Keep());
+  }
+  return kept;
+}
+
+absl::Status EnergyMomentumIntegrator::Restore(
+    const std::vector<KeptTangent>& kept) {
+  size_t next = 0;
+  bool fits = true;
+  for (ModelStep& step : steps_) {
+    for (CoupledStep& part : step.coupled()) {
+      fits = fits && next < kept.size() && part.Restore(kept[next++]);
+    }
+  }
+  if (fits && next == kept.size()) return absl::OkStatus();
+  for (ModelStep& step : steps_) {
+    for (CoupledStep& part : step.coupled()) {
+      static_cast<void>(part.Restore({}));
+    }
+  }
+  return absl::InvalidArgumentError(
+      "the factorisations that were kept are not those of this model");
 }
 
 StepReport EnergyMomentumIntegrator::Step(State& state) {

@@ -19,6 +19,7 @@
 
 #include "absl/status/status.h"
 #include "absl/status/statusor.h"
+#include "emmy/base/export.h"
 #include "emmy/integrate/model_step.h"
 #include "emmy/integrate/structure.h"
 #include "emmy/model/model.h"
@@ -41,7 +42,7 @@ struct IntegratorOptions {
   SymmetricFactor::Method factor_method = SymmetricFactor::Method::kAutomatic;
 };
 
-class EnergyMomentumIntegrator {
+class EMMY_EXPORT EnergyMomentumIntegrator {
  public:
   // `model` must outlive the integrator. Fails with kInvalidArgument, naming
   // the JSON pointer `/integrator/...`, if an option is out of range, and
@@ -49,11 +50,25 @@ class EnergyMomentumIntegrator {
   static absl::StatusOr<EnergyMomentumIntegrator> Create(
       const Model& model, const IntegratorOptions& options);
 
+  // Here, so that whoever links to a shared library needs no other symbol.
+  EnergyMomentumIntegrator(EnergyMomentumIntegrator&&) noexcept;
+  EnergyMomentumIntegrator& operator=(EnergyMomentumIntegrator&&) noexcept;
+  ~EnergyMomentumIntegrator();
+
   // Advances `state` by one step, of one, ten or eighteen parts. Unless the
   // report is ok, `state` is as before, whichever part failed; the message
-  // names it. No heap allocation in a step that converges. The iterations
+  // names it. No heap allocation in a step that converges, except where
+  // a structure renews a sparse factor. The iterations
   // reported are the sum over the parts, the correction is the largest.
   StepReport Step(State& state);
+
+  // What is kept from step to step besides the state: factorisations of
+  // structures, one for each size of step and structure. With its state and
+  // what was kept then, another integrator of the same model and options goes
+  // on with the same bits. Restore fails with kInvalidArgument, and forgets
+  // all factorisations, if `kept` does not fit.
+  std::vector<KeptTangent> Keep() const;
+  absl::Status Restore(const std::vector<KeptTangent>& kept);
 
   const IntegratorOptions& options() const { return options_; }
 

@@ -1,8 +1,10 @@
 // Several bodies' numbers in one vector register, with the operators of one.
 //
 // Compiled once for each instruction set; see batch_kernels.cc. Every operation
-// acts on each lane by itself and rounds as IEEE 754 says, products before they
-// are added, so that a lane has the same bits in a vector of any width.
+// acts on each lane by itself and rounds as IEEE 754 says, so that a lane has
+// the same bits in a vector of any width. MulAdd rounds once where the
+// instruction set has that operation, which is all from AVX2 on and Arm's; the
+// older ones round the product too, and have bits of their own.
 
 #if defined(EMMY_INTEGRATE_LANE_PACK_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef EMMY_INTEGRATE_LANE_PACK_INL_H_
@@ -44,6 +46,16 @@ HWY_INLINE Pack operator+(Pack a, Pack b) { return {hn::Add(a.v, b.v)}; }
 HWY_INLINE Pack operator-(Pack a, Pack b) { return {hn::Sub(a.v, b.v)}; }
 HWY_INLINE Pack operator*(Pack a, Pack b) { return {hn::Mul(a.v, b.v)}; }
 HWY_INLINE Pack operator/(Pack a, Pack b) { return {hn::Div(a.v, b.v)}; }
+// a b + c, c − a b, a b − c.
+HWY_INLINE Pack MulAdd(Pack a, Pack b, Pack c) {
+  return {hn::MulAdd(a.v, b.v, c.v)};
+}
+HWY_INLINE Pack NegMulAdd(Pack a, Pack b, Pack c) {
+  return {hn::NegMulAdd(a.v, b.v, c.v)};
+}
+HWY_INLINE Pack MulSub(Pack a, Pack b, Pack c) {
+  return {hn::MulSub(a.v, b.v, c.v)};
+}
 HWY_INLINE Pack SquareRoot(Pack a) { return {hn::Sqrt(a.v)}; }
 HWY_INLINE Pack Absolute(Pack a) { return {hn::Abs(a.v)}; }
 // Which of the two is returned if one is NaN depends on the instruction set, so
@@ -78,11 +90,19 @@ HWY_INLINE Pack3 operator-(const Pack3& a, const Pack3& b) {
 HWY_INLINE Pack3 operator*(Pack s, const Pack3& a) {
   return {s * a.x, s * a.y, s * a.z};
 }
+HWY_INLINE Pack3 MulAdd(Pack s, const Pack3& a, const Pack3& b) {
+  return {MulAdd(s, a.x, b.x), MulAdd(s, a.y, b.y), MulAdd(s, a.z, b.z)};
+}
+HWY_INLINE Pack3 NegMulAdd(Pack s, const Pack3& a, const Pack3& b) {
+  return {NegMulAdd(s, a.x, b.x), NegMulAdd(s, a.y, b.y),
+          NegMulAdd(s, a.z, b.z)};
+}
 HWY_INLINE Pack Dot(const Pack3& a, const Pack3& b) {
-  return (a.x * b.x + a.y * b.y) + a.z * b.z;
+  return MulAdd(a.z, b.z, MulAdd(a.y, b.y, a.x * b.x));
 }
 HWY_INLINE Pack3 Cross(const Pack3& a, const Pack3& b) {
-  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+  return {MulSub(a.y, b.z, a.z * b.y), MulSub(a.z, b.x, a.x * b.z),
+          MulSub(a.x, b.y, a.y * b.x)};
 }
 // False if an entry is NaN or infinite, or the sum overflows.
 HWY_INLINE Flag IsFinite(const Pack3& a) {
@@ -115,7 +135,7 @@ HWY_INLINE Pack33 operator*(Pack s, const Pack33& m) {
   return {s * m.a, s * m.b, s * m.c};
 }
 HWY_INLINE Pack3 operator*(const Pack33& m, const Pack3& v) {
-  return (v.x * m.a + v.y * m.b) + v.z * m.c;
+  return MulAdd(v.z, m.c, MulAdd(v.y, m.b, v.x * m.a));
 }
 HWY_INLINE Pack33 operator*(const Pack33& m, const Pack33& n) {
   return {m * n.a, m * n.b, m * n.c};
@@ -146,6 +166,48 @@ HWY_INLINE Pack33 Dual(const Pack33& m) {
   return {inverse * bc, inverse * Cross(m.c, m.a), inverse * Cross(m.a, m.b)};
 }
 
+struct PackSum {
+  Pack sum;
+  Pack error;
+};
+HWY_INLINE PackSum TwoSum(Pack a, Pack b) {  // (SUM-1)
+  const Pack sum = a + b;
+  const Pack b_part = sum - a;
+  const Pack a_part = sum - b_part;
+  return {sum, (a - a_part) + (b - b_part)};
+}
+// (SUM-1) if |a| ≥ |b|; else the error is wrong by at most a rounding of b.
+HWY_INLINE PackSum FastTwoSum(Pack a, Pack b) {
+  const Pack sum = a + b;
+  return {sum, b - (sum - a)};
+}
+HWY_INLINE PackSum FastTwoDifference(Pack a, Pack b) {
+  const Pack difference = a - b;
+  return {difference, (a - difference) - b};
+}
+HWY_INLINE PackSum Choose(Flag condition, const PackSum& yes,
+                          const PackSum& no) {
+  return {Choose(condition, yes.sum, no.sum),
+          Choose(condition, yes.error, no.error)};
+}
+HWY_INLINE PackSum TwoProduct(Pack a, Pack b) {  // (SUM-3)
+  const Pack product = a * b;
+#if HWY_NATIVE_FMA
+  return {product, MulSub(a, b, product)};
+#else
+  const Pack split = Broadcast(134217729.0);  // 2²⁷ + 1.
+  const Pack a_scaled = split * a;
+  const Pack a_high = a_scaled - (a_scaled - a);
+  const Pack a_low = a - a_high;
+  const Pack b_scaled = split * b;
+  const Pack b_high = b_scaled - (b_scaled - b);
+  const Pack b_low = b - b_high;
+  return {product,
+          ((a_high * b_high - product) + a_high * b_low + a_low * b_high) +
+              a_low * b_low};
+#endif
+}
+
 // What a step writes: only lanes of `done`, or all of them.
 template <bool kAll>
 class Writer {
@@ -160,16 +222,25 @@ class Writer {
     }
   }
 
-  // (SUM-2); the lanes' values and compensations are at these addresses.
+  // (SUM-2); the lanes' values and compensations are at these addresses. Where
+  // a value is below its increment, near zero, what is lost is a rounding of
+  // the increment, and so no more than that has already.
   HWY_INLINE void Add(Pack increment, double* value,
                       double* compensation) const {
-    const Pack a = Load(value);
-    const Pack b = increment + Load(compensation);
-    const Pack sum = a + b;
-    const Pack b_part = sum - a;
-    const Pack a_part = sum - b_part;
-    Write(sum, value);
-    Write((a - a_part) + (b - b_part), compensation);
+    const PackSum result =
+        FastTwoSum(Load(value), increment + Load(compensation));
+    Write(result.sum, value);
+    Write(result.error, compensation);
+  }
+
+  // The same for an increment with a low-order part.
+  HWY_INLINE void Add(const PackSum& increment, double* value,
+                      double* compensation) const {
+    const PackSum first = FastTwoSum(Load(value), increment.sum);
+    const PackSum second = FastTwoSum(
+        first.sum, first.error + (Load(compensation) + increment.error));
+    Write(second.sum, value);
+    Write(second.error, compensation);
   }
 
   HWY_INLINE void Add3(const Pack3& increment, Lanes* value,
@@ -189,30 +260,6 @@ class Writer {
  private:
   Flag done_;
 };
-
-struct PackSum {
-  Pack sum;
-  Pack error;
-};
-HWY_INLINE PackSum TwoSum(Pack a, Pack b) {  // (SUM-1)
-  const Pack sum = a + b;
-  const Pack b_part = sum - a;
-  const Pack a_part = sum - b_part;
-  return {sum, (a - a_part) + (b - b_part)};
-}
-HWY_INLINE PackSum TwoProduct(Pack a, Pack b) {  // (SUM-3)
-  const Pack split = Broadcast(134217729.0);     // 2²⁷ + 1.
-  const Pack product = a * b;
-  const Pack a_scaled = split * a;
-  const Pack a_high = a_scaled - (a_scaled - a);
-  const Pack a_low = a - a_high;
-  const Pack b_scaled = split * b;
-  const Pack b_high = b_scaled - (b_scaled - b);
-  const Pack b_low = b - b_high;
-  return {product,
-          ((a_high * b_high - product) + a_high * b_low + a_low * b_high) +
-              a_low * b_low};
-}
 
 // Δt v̄ of a constant velocity, the same in every step.
 HWY_INLINE void PrepareCentre(const BatchStep& step, int lane,
@@ -239,14 +286,14 @@ HWY_INLINE void AdvanceCentre(const BatchStep& step, const Writer<kAll>& writer,
       double* const vc = centre->velocity.compensation[i] + lane;
       const Pack change = Broadcast(step.velocity_increment[i]);
       motion = TwoProduct(Broadcast(step.time_step),
-                          Load(v) + (Load(vc) + Broadcast(0.5) * change));
+                          Load(v) + MulAdd(Broadcast(0.5), change, Load(vc)));
       writer.Add(change, v, vc);
     }
     double* const x = centre->position.value[i] + lane;
     double* const xc = centre->position.compensation[i] + lane;
     const PackSum first = TwoSum(Load(x), motion.sum);
     const PackSum second =
-        TwoSum(first.sum, first.error + (Load(xc) + motion.error));
+        FastTwoSum(first.sum, first.error + (Load(xc) + motion.error));
     writer.Write(second.sum, x);
     writer.Write(second.error, xc);
   }
@@ -257,6 +304,7 @@ template <bool kAll, size_t kVectors>
 HWY_INLINE void Predict(const Pack3 (&acceleration)[kVectors],
                         const Writer<kAll>& writer, int lane,
                         ExtrapolationLanes<3 * kVectors>* kept) {
+  // Sums of squares.
   Pack error0 = Broadcast(0.0);
   Pack error1 = error0;
   Pack error2 = error0;
@@ -276,23 +324,26 @@ HWY_INLINE void Predict(const Pack3 (&acceleration)[kVectors],
     writer.Write(d1[i], kept->difference[1][i] + lane);
     writer.Write(d2[i], kept->difference[2][i] + lane);
     writer.Write(d3[i], kept->difference[3][i] + lane);
-    error0 = Larger(error0, Absolute(d1[i]));
-    error1 = Larger(error1, Absolute(d2[i]));
-    error2 = Larger(error2, Absolute(d3[i]));
-    error3 = Larger(error3, Absolute(d4));
+    error0 = MulAdd(d1[i], d1[i], error0);
+    error1 = MulAdd(d2[i], d2[i], error1);
+    error2 = MulAdd(d3[i], d3[i], error2);
+    error3 = MulAdd(d4, d4, error3);
   }
+  const Pack one = Broadcast(1.0);
   const Pack best1 = Smaller(error0, error1);
   const Flag third = error3 < Smaller(best1, error2);
   const Flag second = Or(third, error2 < best1);
   const Flag first = Or(second, error1 < error0);
+  const Pack use3 = OrZero(third, one);
+  const Pack use2 = OrZero(second, one);
+  const Pack use1 = OrZero(first, one);
 #pragma GCC unroll 9
   for (size_t i = 0; i < 3 * kVectors; ++i) {
     const Pack3& vector = acceleration[i / 3];
     const Pack value = i % 3 == 0 ? vector.x : i % 3 == 1 ? vector.y : vector.z;
-    writer.Write(((OrZero(third, d3[i]) + OrZero(second, d2[i])) +
-                  OrZero(first, d1[i])) +
-                     value,
-                 kept->next[i] + lane);
+    writer.Write(
+        MulAdd(use1, d1[i], MulAdd(use2, d2[i], MulAdd(use3, d3[i], value))),
+        kept->next[i] + lane);
   }
 }
 
@@ -302,25 +353,30 @@ class PackMonitor {
   explicit PackMonitor(double negligible)
       : negligible_(negligible),
         previous_(Broadcast(std::numeric_limits<double>::infinity())),
+        previous_ratio_(previous_),
         stagnant_{previous_ < Broadcast(0.0)} {}
 
-  HWY_INLINE Flag Update(Pack correction, Pack floor, bool has_ratio) {
-    const Flag shrinks = correction < Broadcast(0.5) * previous_;
-    const Flag stopped = Without(correction <= Broadcast(1e3) * floor, shrinks);
-    Flag done = Or(stopped, correction <= Broadcast(0.0));
-    if (has_ratio) {
-      const Flag vanishes =
-          correction * correction <= Broadcast(negligible_) * floor * previous_;
-      done = Or(done, And(shrinks, vanishes));
-    }
+  HWY_INLINE Flag Update(Pack correction, Pack floor) {
+    const Pack ratio = correction / previous_;
+    const Pack slower = Larger(ratio, previous_ratio_);
+    const Pack half = Broadcast(0.5);
+    const Flag stopped =
+        Without(correction <= Broadcast(1e3) * floor, ratio < half);
+    const Flag vanishes = And(
+        slower < half, correction * slower <= Broadcast(negligible_) * floor);
+    previous_ratio_ =
+        Choose(previous_ < Broadcast(std::numeric_limits<double>::infinity()),
+               ratio, previous_);
     previous_ = correction;
-    stagnant_ = Or(stagnant_, done);
+    stagnant_ =
+        Or(Or(stagnant_, correction <= Broadcast(0.0)), Or(stopped, vanishes));
     return stagnant_;
   }
 
  private:
   double negligible_;
   Pack previous_;
+  Pack previous_ratio_;
   Flag stagnant_;
 };
 

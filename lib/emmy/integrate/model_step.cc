@@ -202,8 +202,12 @@ void ModelStep::Commit(State& state) const {
     const ModelBody& body = *part.body;
     CommitCentre(body, state);
     state.position.Add(body.position_offset + 3, part.increment.quaternion);
-    state.velocity.Add(body.velocity_offset + 3,
-                       part.increment.angular_velocity);
+    for (int i = 0; i < 3; ++i) {
+      const Eigen::Index w = body.velocity_offset + 3 + i;
+      AddCompensated(part.increment.angular_velocity(i),
+                     part.increment.angular_velocity_low(i),
+                     state.velocity.value(w), state.velocity.compensation(w));
+    }
     Predict(body.velocity_offset + 3, part.increment.angular_velocity / dt,
             state);
   }

@@ -43,11 +43,15 @@ class ModelStep {
 
   // Solves for the next state; `state` is not changed. If it returns false,
   // `report` says why; its termination is not touched otherwise. No heap
-  // allocation if the step converges.
+  // allocation if the step converges, except for a sparse factor.
   bool Solve(const State& state, StepReport* report);
 
   // Advances `state` by the last solution, except its time and step number.
   void Commit(State& state) const;
+
+  // What each structure's step keeps from step to step.
+  const std::vector<CoupledStep>& coupled() const { return coupled_; }
+  std::vector<CoupledStep>& coupled() { return coupled_; }
 
   // Factorisations of structures so far.
   int num_factorizations() const;

@@ -7,6 +7,7 @@
 #include <functional>
 #include <string>
 
+#include "emmy/base/export.h"
 #include "emmy/integrate/energy_momentum.h"
 #include "emmy/model/state.h"
 #include "emmy/numerics/newton.h"
@@ -32,8 +33,9 @@ struct [[nodiscard]] SimulationReport {
   }
 };
 
-SimulationReport Simulate(EnergyMomentumIntegrator& integrator, State& state,
-                          int64_t num_steps, const Observer& observer);
+EMMY_EXPORT SimulationReport Simulate(EnergyMomentumIntegrator& integrator,
+                                      State& state, int64_t num_steps,
+                                      const Observer& observer);
 
 }  // namespace emmy
 

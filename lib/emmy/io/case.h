@@ -8,6 +8,7 @@
 #include <optional>
 #include <string>
 
+#include "emmy/base/export.h"
 #include "emmy/model/model_description.h"
 
 namespace emmy {
@@ -41,7 +42,7 @@ inline constexpr double kMaxSteps = 9007199254740992.0;  // 2^53
 // where a quotient within 4 u of a whole number counts as that number (u =
 // 2^-53): T, h and T / h are each rounded, and 0.3 s are three steps of 0.1 s.
 // Needs 0 < T, 0 < h and T / h <= kMaxSteps.
-int64_t NumberOfSteps(const IntegratorSettings& settings);
+EMMY_EXPORT int64_t NumberOfSteps(const IntegratorSettings& settings);
 
 }  // namespace emmy
 

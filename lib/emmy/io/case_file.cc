@@ -73,20 +73,25 @@ bool IsFinite(const Invariants& invariants) {
          invariants.angular_momentum.ToDouble().allFinite();
 }
 
+absl::StatusOr<LoadedCase> BuildCase(Case description) {
+  absl::StatusOr<BuiltModel> built = BuildModel(description.model);
+  if (!built.ok()) return built.status();
+  if (!IsFinite(MeasureInvariants(built->model, built->state))) {
+    return absl::InvalidArgumentError(
+        "energy and momentum at the start must be finite numbers: a mass, "
+        "length, stiffness or velocity is too large");
+  }
+  return LoadedCase{std::move(description), std::move(built->model),
+                    std::move(built->state)};
+}
+
 absl::StatusOr<LoadedCase> LoadCaseFile(
     const std::string& path, const std::vector<std::string>& overrides) {
   absl::StatusOr<Case> description = ReadCaseFile(path, overrides);
   if (!description.ok()) return description.status();
-  absl::StatusOr<BuiltModel> built = BuildModel(description->model);
-  if (!built.ok()) return CaseFileError(path, overrides, built.status());
-  if (!IsFinite(MeasureInvariants(built->model, built->state))) {
-    return absl::InvalidArgumentError(absl::StrCat(
-        path,
-        ": energy and momentum at the start must be finite numbers: a mass, "
-        "length, stiffness or velocity is too large"));
-  }
-  return LoadedCase{*std::move(description), std::move(built->model),
-                    std::move(built->state)};
+  absl::StatusOr<LoadedCase> loaded = BuildCase(*std::move(description));
+  if (!loaded.ok()) return CaseFileError(path, overrides, loaded.status());
+  return loaded;
 }
 
 }  // namespace emmy

@@ -12,6 +12,7 @@
 
 #include "absl/status/statusor.h"
 #include "absl/strings/string_view.h"
+#include "emmy/base/export.h"
 #include "emmy/diagnostics/invariants.h"
 #include "emmy/io/case.h"
 #include "emmy/model/model_builder.h"
@@ -21,12 +22,12 @@ namespace emmy {
 // The case written in `text` (JSON, emmy-case/1), after replacing values by
 // `overrides`, each "/json/pointer=value". Checks the structure only;
 // BuildModel checks the rest. Messages begin with the JSON pointer.
-absl::StatusOr<Case> ParseCase(absl::string_view text,
-                               const std::vector<std::string>& overrides = {});
+EMMY_EXPORT absl::StatusOr<Case> ParseCase(
+    absl::string_view text, const std::vector<std::string>& overrides = {});
 
 // The same from a file; messages begin with `path`, and end in "(from --set)"
 // if the place at fault was overridden.
-absl::StatusOr<Case> ReadCaseFile(
+EMMY_EXPORT absl::StatusOr<Case> ReadCaseFile(
     const std::string& path, const std::vector<std::string>& overrides = {});
 
 struct LoadedCase {
@@ -36,18 +37,22 @@ struct LoadedCase {
 };
 
 // Whether energy, momentum and angular momentum are finite.
-bool IsFinite(const Invariants& invariants);
+EMMY_EXPORT bool IsFinite(const Invariants& invariants);
 
-// Reads the file and builds its model; energy and momentum at the start must
-// be finite. What can be wrong with a case is reported here.
-absl::StatusOr<LoadedCase> LoadCaseFile(
+// Builds the model of a case; energy and momentum at the start must be finite.
+// Messages begin with the JSON pointer.
+EMMY_EXPORT absl::StatusOr<LoadedCase> BuildCase(Case description);
+
+// Reads the file and builds its model. What can be wrong with a case is
+// reported here.
+EMMY_EXPORT absl::StatusOr<LoadedCase> LoadCaseFile(
     const std::string& path, const std::vector<std::string>& overrides = {});
 
 // The message of `status`, which begins with a JSON pointer, as the user of
 // the file should see it: for checks that are made after loading.
-absl::Status CaseFileError(const std::string& path,
-                           const std::vector<std::string>& overrides,
-                           const absl::Status& status);
+EMMY_EXPORT absl::Status CaseFileError(
+    const std::string& path, const std::vector<std::string>& overrides,
+    const absl::Status& status);
 
 }  // namespace emmy
 

@@ -5,6 +5,7 @@
 
 #include <string>
 
+#include "emmy/base/export.h"
 #include "emmy/io/case.h"
 
 namespace emmy {
@@ -13,7 +14,7 @@ namespace emmy {
 // every double is written with the digits that determine it. Keys with their
 // default value are written too, except empty lists and an empty purpose.
 // Needs finite numbers (JSON has no others).
-std::string WriteCase(const Case& value);
+EMMY_EXPORT std::string WriteCase(const Case& value);
 
 }  // namespace emmy
 

@@ -1,11 +1,15 @@
 #include "emmy/io/history.h"
 
+#include <unistd.h>
+
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <charconv>
 #include <cmath>
 #include <cstring>
 #include <filesystem>
+#include <string_view>
 #include <system_error>
 #include <utility>
 
@@ -13,6 +17,7 @@
 #include "absl/strings/str_join.h"
 #include "absl/strings/str_replace.h"
 #include "absl/strings/string_view.h"
+#include "emmy/base/crc64.h"
 #include "emmy/diagnostics/body_motion.h"
 #include "emmy/diagnostics/structure_motion.h"
 
@@ -48,7 +53,8 @@ void AddBodyValues(const BodyMotion& motion, std::vector<double>* row) {
   AddValues(motion.omega_polar_exact, row);
 }
 
-// In the order of HistoryColumns.
+}  // namespace
+
 std::vector<double> HistoryRow(const Model& model, const State& state,
                                const Invariants& invariants, int iterations) {
   std::vector<double> row = {static_cast<double>(state.step),
@@ -77,6 +83,8 @@ std::vector<double> HistoryRow(const Model& model, const State& state,
   }
   return row;
 }
+
+namespace {
 
 // As %.17g, whatever the locale.
 void AppendNumber(double value, std::string* line) {
@@ -146,6 +154,55 @@ absl::StatusOr<HistoryWriter> HistoryWriter::Create(const std::string& path,
   return writer;
 }
 
+absl::StatusOr<HistoryWriter> HistoryWriter::Resume(
+    const std::string& path, const Model& model,
+    const HistoryPosition& position) {
+  const auto cannot_open = [&path](absl::string_view reason) {
+    return absl::FailedPreconditionError(
+        absl::StrCat(path, ": cannot be continued: ", reason));
+  };
+  // A device or pipe has no rows to go on from, and may block when opened.
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(path, error)) {
+    return cannot_open(error ? error.message() : "is not a regular file");
+  }
+  std::FILE* file = std::fopen(path.c_str(), "r+b");
+  if (file == nullptr) return cannot_open(std::strerror(errno));
+  HistoryWriter writer(path, file, HistoryColumns(model));
+  std::string chunk(size_t{1} << 16, '\0');
+  while (writer.end_.bytes < position.bytes) {
+    const size_t wanted = static_cast<size_t>(
+        std::min<uint64_t>(chunk.size(), position.bytes - writer.end_.bytes));
+    const size_t count = std::fread(chunk.data(), 1, wanted, file);
+    writer.end_.checksum =
+        Crc64(std::string_view(chunk.data(), count), writer.end_.checksum);
+    writer.end_.bytes += count;
+    if (count < wanted) {
+      return cannot_open(absl::StrCat("has ", writer.end_.bytes,
+                                      " bytes, the checkpoint was written at ",
+                                      position.bytes));
+    }
+  }
+  if (writer.end_.checksum != position.checksum) {
+    return cannot_open("is not the history of the checkpoint, or was changed");
+  }
+  std::filesystem::resize_file(path, position.bytes, error);
+  if (error) return cannot_open(error.message());
+  // Between reading and writing a stream has to be positioned.
+  if (std::fseek(file, 0, SEEK_END) != 0) {
+    return cannot_open(std::strerror(errno));
+  }
+  return writer;
+}
+
+absl::StatusOr<HistoryPosition> HistoryWriter::Sync() {
+  // Terminals and pipes cannot be synced, and are not continued either.
+  if (fsync(fileno(file_.get())) != 0 && errno != EINVAL && errno != EROFS) {
+    return CannotWrite(path_, errno);
+  }
+  return end_;
+}
+
 absl::Status HistoryWriter::Write(const Model& model, const State& state,
                                   const Invariants& invariants,
                                   int iterations) {
@@ -167,14 +224,15 @@ absl::Status HistoryWriter::WriteLine(const std::string& line) {
   const std::string text = line + "\n";
   if (std::fwrite(text.data(), 1, text.size(), file_.get()) == text.size() &&
       std::fflush(file_.get()) == 0) {
-    complete_bytes_ += text.size();
+    end_.bytes += text.size();
+    end_.checksum = Crc64(text, end_.checksum);
     return absl::OkStatus();
   }
   const int error = errno;
   file_.reset();
   std::error_code ignored;
   if (std::filesystem::is_regular_file(path_, ignored)) {
-    std::filesystem::resize_file(path_, complete_bytes_, ignored);
+    std::filesystem::resize_file(path_, end_.bytes, ignored);
   }
   return CannotWrite(path_, error);
 }

@@ -22,6 +22,7 @@
 
 #include "absl/status/status.h"
 #include "absl/status/statusor.h"
+#include "emmy/base/export.h"
 #include "emmy/diagnostics/invariants.h"
 #include "emmy/model/model.h"
 #include "emmy/model/state.h"
@@ -29,9 +30,22 @@
 namespace emmy {
 
 // The names of the columns, without quotation marks.
-std::vector<std::string> HistoryColumns(const Model& model);
+EMMY_EXPORT std::vector<std::string> HistoryColumns(const Model& model);
 
-class HistoryWriter {
+// The end of a row in a history.
+struct HistoryPosition {
+  uint64_t bytes = 0;     // Length of the file up to there,
+  uint64_t checksum = 0;  // and Crc64 of that.
+};
+
+// A row in the order of HistoryColumns. `iterations` is that of the step that
+// led to `state`.
+EMMY_EXPORT std::vector<double> HistoryRow(const Model& model,
+                                           const State& state,
+                                           const Invariants& invariants,
+                                           int iterations);
+
+class EMMY_EXPORT HistoryWriter {
  public:
   // Makes or replaces the file and writes the header row. Fails with
   // kFailedPrecondition if it cannot be opened, kDataLoss if it cannot be
@@ -39,11 +53,21 @@ class HistoryWriter {
   static absl::StatusOr<HistoryWriter> Create(const std::string& path,
                                               const Model& model);
 
+  // Opens the file to go on at `position`, and cuts off what is beyond it.
+  // Fails with kFailedPrecondition if the file does not begin with what the
+  // position belongs to.
+  static absl::StatusOr<HistoryWriter> Resume(const std::string& path,
+                                              const Model& model,
+                                              const HistoryPosition& position);
+
   // Appends a row. `iterations` is that of the step that led to `state`, 0 at
   // the start. Fails, leaving the rows before, if a value is not finite (its
   // column is named) or the file cannot be written; do not call again then.
   absl::Status Write(const Model& model, const State& state,
                      const Invariants& invariants, int iterations);
+
+  // Waits until all rows are on the disk; then where the next one will begin.
+  absl::StatusOr<HistoryPosition> Sync();
 
   const std::string& path() const { return path_; }
 
@@ -60,7 +84,7 @@ class HistoryWriter {
   std::string path_;
   std::unique_ptr<std::FILE, CloseFile> file_;
   std::vector<std::string> columns_;
-  uintmax_t complete_bytes_ = 0;  // Length of the file up to its last row.
+  HistoryPosition end_;  // Of the last complete row.
 };
 
 }  // namespace emmy

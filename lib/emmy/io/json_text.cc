@@ -23,6 +23,13 @@ bool IsUtf8Continuation(char c) {
   return (static_cast<unsigned char>(c) & 0xC0U) == 0x80U;
 }
 
+// On one line and without control characters, whatever is in it.
+std::string Printable(const Json& value) {
+  return absl::StrReplaceAll(
+      value.dump(-1, ' ', false, Json::error_handler_t::replace),
+      {{"\x7F", "\\u007f"}});  // The one that JSON leaves as it is.
+}
+
 // "line L, column C" of the byte number `position` (the first is 1), counting
 // characters in a line.
 std::string LineAndColumn(absl::string_view text, size_t position) {
@@ -231,8 +238,7 @@ std::string ShowJson(const Json& value) {
   if (value.is_array() && !is_short) {
     return absl::StrCat("an array of ", value.size());
   }
-  return Shorten(value.dump(-1, ' ', false, Json::error_handler_t::replace),
-                 kMaxShown);
+  return Shorten(Printable(value), kMaxShown);
 }
 
 std::string Shorten(std::string text, size_t max_bytes) {
@@ -247,8 +253,7 @@ std::string PointerPart(absl::string_view key) {
   const std::string escaped =
       absl::StrReplaceAll(key, {{"~", "~0"}, {"/", "~1"}});
   // As a JSON string without its quotation marks: control characters escaped.
-  const std::string printable =
-      Json(escaped).dump(-1, ' ', false, Json::error_handler_t::replace);
+  const std::string printable = Printable(escaped);
   return absl::StrCat(
       "/", Shorten(printable.substr(1, printable.size() - 2), kMaxShown));
 }

@@ -21,7 +21,7 @@ namespace emmy {
 
 inline constexpr size_t kMaxJsonDepth = 32;
 // Parsing holds at most about 40 times the size of the text in memory.
-inline constexpr size_t kMaxJsonBytes = size_t{64} << 20;
+inline constexpr size_t kMaxJsonBytes = size_t{256} << 20;
 
 // The value written in `text`, which must be UTF-8. Fails with
 // kInvalidArgument: syntax errors give "line L, column C: ...", all others

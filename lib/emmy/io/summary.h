@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <string>
 
+#include "emmy/base/export.h"
 #include "emmy/diagnostics/invariant_monitor.h"
 
 namespace emmy {
@@ -32,11 +33,11 @@ struct RunSummary {
 };
 
 // "completed", "failed" or "interrupted".
-std::string StatusName(RunStatus status);
+EMMY_EXPORT std::string StatusName(RunStatus status);
 
 // The text of summary.json, with the build of this library. JSON has no NaN
 // and no infinity; in their place stands null.
-std::string WriteSummary(const RunSummary& summary);
+EMMY_EXPORT std::string WriteSummary(const RunSummary& summary);
 
 }  // namespace emmy
 

@@ -1,5 +1,8 @@
 #include "emmy/io/text_file.h"
 
+#include <fcntl.h>
+#include <unistd.h>
+
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
@@ -54,6 +57,20 @@ absl::StatusOr<std::string> ReadTextFile(const std::string& path,
   return text;
 }
 
+absl::Status SyncFolderOf(const std::string& path) {
+  const std::filesystem::path folder =
+      std::filesystem::path(path).parent_path();
+  const int descriptor =
+      open(folder.empty() ? "." : folder.c_str(), O_RDONLY | O_DIRECTORY);
+  const bool synced = descriptor >= 0 && fsync(descriptor) == 0;
+  const int error = errno;
+  if (descriptor >= 0) close(descriptor);
+  // Some file systems have no such operation, and need none.
+  if (synced || error == EINVAL || error == ENOTSUP) return absl::OkStatus();
+  return absl::DataLossError(
+      absl::StrCat(path, ": cannot be written: ", std::strerror(error)));
+}
+
 absl::Status WriteTextFile(const std::string& path, absl::string_view text) {
   const std::string temporary = path + ".tmp";
   File file(std::fopen(temporary.c_str(), "wb"));
@@ -61,17 +78,20 @@ absl::Status WriteTextFile(const std::string& path, absl::string_view text) {
     return absl::PermissionDeniedError(
         absl::StrCat(path, ": cannot be written: ", std::strerror(errno)));
   }
-  bool written =
-      std::fwrite(text.data(), 1, text.size(), file.get()) == text.size();
-  written = std::fclose(file.release()) == 0 && written;
+  const bool written =
+      std::fwrite(text.data(), 1, text.size(), file.get()) == text.size() &&
+      std::fflush(file.get()) == 0 && fsync(fileno(file.get())) == 0;
   const int write_error = errno;
+  const bool closed = std::fclose(file.release()) == 0;
+  const int close_error = errno;
   std::error_code error;
-  if (written) {
+  if (written && closed) {
     std::filesystem::rename(temporary, path, error);
-    if (!error) return absl::OkStatus();
+    if (!error) return SyncFolderOf(path);
   }
   const std::string reason =
-      written ? error.message() : std::strerror(write_error);
+      error ? error.message()
+            : std::strerror(written ? close_error : write_error);
   std::filesystem::remove(temporary, error);
   return absl::DataLossError(
       absl::StrCat(path, ": cannot be written: ", reason));

@@ -18,8 +18,13 @@ absl::StatusOr<std::string> ReadTextFile(const std::string& path,
                                          size_t max_bytes);
 
 // Replaces the file as a whole: `path` holds either its old content or `text`,
-// never a part. Messages begin with the path.
+// never a part, even if the machine stops; on return `text` is on the disk.
+// Until then it is beside it, as `path`.tmp. Messages begin with the path.
 absl::Status WriteTextFile(const std::string& path, absl::string_view text);
+
+// Waits until the folder that holds `path` is on the disk: the name of a file
+// just made there, which syncing the file alone does not save.
+absl::Status SyncFolderOf(const std::string& path);
 
 // Makes the directory and its parents if needed. Messages begin with the path.
 absl::Status MakeDirectory(const std::string& path);

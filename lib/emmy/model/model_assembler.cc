@@ -81,6 +81,11 @@ absl::Status ModelAssembler::AddName(const std::string& pointer,
   if (name.empty()) {
     return FieldError(pointer + "/name", "a name that is not empty", "\"\"");
   }
+  // Names head the columns of tables, and stand in messages of one line.
+  if (!IsPrintable(name)) {
+    return FieldError(pointer + "/name", "a name without control characters",
+                      NameText(name));
+  }
   const auto [place, is_new] = items_.emplace(
       name, NamedItem{.kind = kind, .index = index, .pointer = pointer});
   if (is_new) return absl::OkStatus();
@@ -169,7 +174,7 @@ absl::StatusOr<Vector3d> ModelAssembler::StartVelocity(
   const auto item = items_.find(name);
   if (item == items_.end() || item->second.kind != NamedItem::Kind::kBody) {
     return FieldError(pointer + "/velocity/moves_with",
-                      "the name of a rigid body", "\"" + name + "\"");
+                      "the name of a rigid body", NameText(name));
   }
   const size_t index = item->second.index;
   const ModelBody& body = model_.bodies_[index];
@@ -219,7 +224,7 @@ absl::StatusOr<ResolvedPoint> ModelAssembler::Resolve(
     const auto item = items_.find(node->node);
     if (item == items_.end() || item->second.kind != NamedItem::Kind::kNode) {
       return FieldError(pointer + "/node", "the name of a node",
-                        "\"" + node->node + "\"");
+                        NameText(node->node));
     }
     return ResolvedNode{item->second.index};
   }
@@ -227,7 +232,7 @@ absl::StatusOr<ResolvedPoint> ModelAssembler::Resolve(
   const auto item = items_.find(body.body);
   if (item == items_.end() || item->second.kind != NamedItem::Kind::kBody) {
     return FieldError(pointer + "/body", "the name of a rigid body",
-                      "\"" + body.body + "\"");
+                      NameText(body.body));
   }
   absl::Status status = CheckFinite(pointer + "/point", body.point, "m");
   if (!status.ok()) return status;
@@ -501,9 +506,11 @@ absl::StatusOr<std::array<Point, 2>> ModelAssembler::MakeEnds(
   return points;
 }
 
-void ModelAssembler::AddLine(const std::string& name,
-                             const LineElement& element,
-                             const std::array<Point, 2>& ends, double mass) {
+absl::Status ModelAssembler::AddLine(const std::string& pointer,
+                                     const std::string& name,
+                                     const LineElement& element,
+                                     const std::array<Point, 2>& ends,
+                                     double mass) {
   ModelLine line{.name = name,
                  .element = element,
                  .ends = ends,
@@ -519,6 +526,11 @@ void ModelAssembler::AddLine(const std::string& name,
   }
   for (const auto& [vector, weight] : row) {
     if (weight != 0.0) line.difference.terms.push_back({vector, weight});
+  }
+  if (line.difference.terms.empty() && !ends[0].conventional_body.has_value() &&
+      !ends[1].conventional_body.has_value()) {
+    return FieldError(pointer + "/ends", "two points that can move apart",
+                      "two ends at one point or both on the ground");
   }
   line.difference.ground = ends[1].ground - ends[0].ground;
   const DoubleDouble value =
@@ -540,6 +552,7 @@ void ModelAssembler::AddLine(const std::string& name,
   state_.strain.compensation(s) = value.lo;
   AddConsistentMass(ends, mass);
   model_.lines_.push_back(std::move(line));
+  return absl::OkStatus();
 }
 
 absl::Status ModelAssembler::AddTrusses() {
@@ -567,20 +580,16 @@ absl::Status ModelAssembler::AddTrusses() {
     } else if (!(distance > 0.0)) {
       return FieldError(pointer + "/ends",
                         "apart at the start, where length is not given [m]",
-                        "a distance of 0");
+                        "a distance of " + NumberText(distance));
     }
     const double length = truss.length.value_or(distance);
     const double axial_stiffness = truss.young_modulus * truss.area;
-    AddLine(truss.name,
-            truss.tension_only ? LineElement::Cable(length, axial_stiffness)
-                               : LineElement::Truss(length, axial_stiffness),
-            *ends, truss.density * truss.area * length);
-    if (model_.lines_.back().difference.terms.empty() &&
-        !(*ends)[0].conventional_body.has_value() &&
-        !(*ends)[1].conventional_body.has_value()) {
-      return FieldError(pointer + "/ends", "two points that can move apart",
-                        "two ends at one point or both on the ground");
-    }
+    status = AddLine(pointer, truss.name,
+                     truss.tension_only
+                         ? LineElement::Cable(length, axial_stiffness)
+                         : LineElement::Truss(length, axial_stiffness),
+                     *ends, truss.density * truss.area * length);
+    if (!status.ok()) return status;
   }
   return absl::OkStatus();
 }
@@ -598,14 +607,10 @@ absl::Status ModelAssembler::AddSprings() {
     if (!status.ok()) return status;
     absl::StatusOr<std::array<Point, 2>> ends = MakeEnds(pointer, spring.ends);
     if (!ends.ok()) return ends.status();
-    AddLine(spring.name, LineElement::Spring(spring.length, spring.stiffness),
-            *ends, 0.0);
-    if (model_.lines_.back().difference.terms.empty() &&
-        !(*ends)[0].conventional_body.has_value() &&
-        !(*ends)[1].conventional_body.has_value()) {
-      return FieldError(pointer + "/ends", "two points that can move apart",
-                        "two ends at one point or both on the ground");
-    }
+    status = AddLine(pointer, spring.name,
+                     LineElement::Spring(spring.length, spring.stiffness),
+                     *ends, 0.0);
+    if (!status.ok()) return status;
   }
   state_.strain.value.conservativeResize(model_.num_strains_);
   state_.strain.compensation.conservativeResize(model_.num_strains_);

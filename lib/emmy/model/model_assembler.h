@@ -78,8 +78,11 @@ class ModelAssembler {
   absl::StatusOr<std::array<Point, 2>> MakeEnds(
       const std::string& pointer,
       const std::array<PointDescription, 2>& ends) const;
-  void AddLine(const std::string& name, const LineElement& element,
-               const std::array<Point, 2>& ends, double mass);
+  // `pointer` is that of the element, for messages. Fails if the ends cannot
+  // move apart.
+  absl::Status AddLine(const std::string& pointer, const std::string& name,
+                       const LineElement& element,
+                       const std::array<Point, 2>& ends, double mass);
   void MeasureModel();
 
   const ModelDescription& description_;

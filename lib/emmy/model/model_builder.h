@@ -4,6 +4,7 @@
 #define EMMY_MODEL_MODEL_BUILDER_H_
 
 #include "absl/status/statusor.h"
+#include "emmy/base/export.h"
 #include "emmy/model/model.h"
 #include "emmy/model/model_description.h"
 #include "emmy/model/state.h"
@@ -19,7 +20,8 @@ struct BuiltModel {
 // with the field's JSON pointer and gives expectation, unit and value:
 //   /rigid_bodies/0/box/density: must be a finite number > 0 [kg/m^3],
 //   got -2700
-absl::StatusOr<BuiltModel> BuildModel(const ModelDescription& description);
+EMMY_EXPORT absl::StatusOr<BuiltModel> BuildModel(
+    const ModelDescription& description);
 
 }  // namespace emmy
 

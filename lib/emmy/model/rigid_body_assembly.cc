@@ -1,5 +1,6 @@
 #include "emmy/model/rigid_body_assembly.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <string>
@@ -16,6 +17,22 @@
 namespace emmy {
 namespace {
 
+// Products of sizes, which may be nothing although no size is.
+absl::StatusOr<RigidBodyInertia> CheckNotVanishing(
+    const std::string& pointer, const RigidBodyInertia& inertia) {
+  // Below, low-order parts of products are lost (DoubleDouble).
+  constexpr double kLeast = 1e-290;
+  const double moment = inertia.second_moment.diagonal().minCoeff();
+  if (!(std::min({inertia.mass, inertia.volume, moment}) < kLeast)) {
+    return inertia;
+  }
+  return FieldError(
+      pointer, "a body with mass, volume and second moments >= 1e-290 [SI]",
+      absl::StrCat(NumberText(inertia.mass), " kg, ",
+                   NumberText(inertia.volume), " m^3 and ", NumberText(moment),
+                   " kg m^2"));
+}
+
 absl::StatusOr<RigidBodyInertia> MakeInertia(
     const std::string& pointer, const RigidBodyDescription& description) {
   if (const auto* box = std::get_if<BoxInertia>(&description.inertia)) {
@@ -27,7 +44,8 @@ absl::StatusOr<RigidBodyInertia> MakeInertia(
     absl::Status status =
         CheckPositive(pointer + "/box/density", box->density, "kg/m^3");
     if (!status.ok()) return status;
-    return RigidBodyInertia::Box(box->size, box->density);
+    return CheckNotVanishing(pointer + "/box",
+                             RigidBodyInertia::Box(box->size, box->density));
   }
   const auto& given = std::get<TensorInertia>(description.inertia);
   absl::Status status =
@@ -55,7 +73,7 @@ absl::StatusOr<RigidBodyInertia> MakeInertia(
     return absl::InvalidArgumentError(
         absl::StrCat(tensor_pointer, ": ", inertia.status().message()));
   }
-  return inertia;
+  return CheckNotVanishing(pointer + "/inertia", *inertia);
 }
 
 absl::StatusOr<Vector6d> MakePenalty(const std::string& pointer,

@@ -1,5 +1,6 @@
 #include "emmy/model/validation.h"
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
@@ -8,6 +9,7 @@
 
 #include "absl/status/status.h"
 #include "absl/strings/str_cat.h"
+#include "absl/strings/str_format.h"
 
 namespace emmy {
 namespace {
@@ -22,6 +24,10 @@ std::string WithUnit(std::string_view expectation, std::string_view unit) {
   return text;
 }
 
+bool IsControl(char c) {
+  return static_cast<unsigned char>(c) < 0x20 || c == 0x7F;
+}
+
 }  // namespace
 
 std::string NumberText(double value) {
@@ -29,6 +35,22 @@ std::string NumberText(double value) {
   const std::to_chars_result result =
       std::to_chars(buffer.data(), buffer.data() + buffer.size(), value);
   return std::string(buffer.data(), result.ptr);
+}
+
+std::string NameText(std::string_view name) {
+  std::string text = "\"";
+  for (const char c : name) {
+    if (IsControl(c)) {
+      text += absl::StrFormat("\\u%04x", static_cast<unsigned>(c));
+    } else {
+      text += c;
+    }
+  }
+  return text + "\"";
+}
+
+bool IsPrintable(std::string_view text) {
+  return std::none_of(text.begin(), text.end(), IsControl);
 }
 
 absl::Status FieldError(std::string_view pointer, std::string_view expectation,

@@ -23,6 +23,12 @@ absl::Status CheckNotNegative(std::string_view pointer, double value,
 absl::Status CheckFinite(std::string_view pointer, const Vector3d& value,
                          std::string_view unit);
 
+// In quotation marks, with control characters as \u0007: for messages.
+std::string NameText(std::string_view name);
+
+// Whether `text` has no control characters (below U+0020, and U+007F).
+bool IsPrintable(std::string_view text);
+
 // Shortest text that reads back as the same number; "nan", "inf".
 std::string NumberText(double value);
 

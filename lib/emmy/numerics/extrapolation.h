@@ -6,8 +6,9 @@
 // which that was least. A smooth sequence is so predicted to third order,
 // while one that vibrates from value to value stays at its last one.
 //
-// Only for start values of an iteration: no result depends on it beyond
-// round-off.
+// Only for start values of an iteration: a result depends on it by round-off,
+// or by the iteration's tolerance. Steps of different sizes (compositions) make
+// it a poorer guess, and lower orders are then chosen.
 
 #ifndef EMMY_NUMERICS_EXTRAPOLATION_H_
 #define EMMY_NUMERICS_EXTRAPOLATION_H_
@@ -28,11 +29,11 @@ struct Extrapolation {
   using Errors = std::array<double, kOrders>;
 
   VectorXd next;         // Prediction, one entry a sequence.
-  MatrixXd differences;  // ∇⁰ … ∇⁴ of the last value, one column each.
+  MatrixXd differences;  // ∇⁰ … ∇³ of the last value, a column a sequence.
 
   void SetZero(Eigen::Index size) {
     next.setZero(size);
-    differences.setZero(size, kOrders + 1);
+    differences.setZero(kOrders, size);
   }
 
   // Takes new values of the sequences from `offset` on; `errors` grows to
@@ -42,12 +43,11 @@ struct Extrapolation {
            Errors* errors) {
     for (Eigen::Index i = 0; i < values.size(); ++i) {
       double difference = values(i);
-      for (int j = 0; j <= kOrders; ++j) {
-        double& kept = differences(offset + i, j);
+      for (int j = 0; j < kOrders; ++j) {
+        double& kept = differences(j, offset + i);
         const double change = difference - kept;
         kept = difference;
         difference = change;
-        if (j == kOrders) break;
         double& error = (*errors)[static_cast<size_t>(j)];
         error = std::max(error, std::abs(difference));
       }
@@ -64,7 +64,7 @@ struct Extrapolation {
   void Predict(Eigen::Index offset, Eigen::Index size, int order) {
     for (Eigen::Index i = offset; i < offset + size; ++i) {
       double sum = 0.0;
-      for (int j = order; j >= 0; --j) sum += differences(i, j);
+      for (int j = order; j >= 0; --j) sum += differences(j, i);
       next(i) = sum;
     }
   }

@@ -3,6 +3,8 @@
 #ifndef EMMY_NUMERICS_NEWTON_H_
 #define EMMY_NUMERICS_NEWTON_H_
 
+#include <algorithm>
+#include <cmath>
 #include <limits>
 #include <optional>
 #include <string>
@@ -10,9 +12,10 @@
 namespace emmy {
 
 struct NewtonOptions {
-  // Empty: iterate until corrections stop shrinking at the round-off floor
-  // (EM-5). Else: converged when the largest velocity correction is at most
-  // tolerance · max|w|, which leaves a residual whose work is the energy error.
+  // Empty: iterate until corrections stop shrinking at the round-off floor, or
+  // the next would be lost in it (EM-5). Else: converged when the largest
+  // velocity correction is at most tolerance · max|w|, which leaves a residual
+  // whose work is the energy error.
   std::optional<double> tolerance;
   int max_iterations = 60;
 };
@@ -26,7 +29,9 @@ enum class Termination {
 
 struct [[nodiscard]] StepReport {
   Termination termination = Termination::kMaxIterations;
-  int iterations = 0;  // The most any part of the model needed.
+  // The most any part of the model needed; for orders 4 and 6 summed over the
+  // parts of the step.
+  int iterations = 0;
   // Largest velocity correction of the last iteration [m/s, rad/s].
   double correction = 0.0;
   std::string message;  // Non-empty unless kConverged.
@@ -49,7 +54,9 @@ inline constexpr int kStagnationPatience = 20;
 // so fast that its next member would be `negligible` against the floor, that
 // member is lost in rounding. What it would have removed has the same sign in
 // every step, and adds up like the number of steps where rounding adds up like
-// its root: 2⁻¹⁰ leaves it below rounding for a million steps.
+// its root: 2⁻¹⁰ leaves it below rounding for a million steps. How fast it
+// shrinks is the slower of the last two ratios: one alone may be that of a part
+// which the first correction removes, with a slower part hidden below it.
 class StagnationMonitor {
  public:
   explicit StagnationMonitor(double negligible = 0x1p-10)
@@ -61,21 +68,22 @@ class StagnationMonitor {
     constexpr double kNear = 1e3;   // Where "stops shrinking" may be judged.
     constexpr double kRatio = 0.5;  // Less than one bit gained.
     const double ratio = correction / previous_;
+    const double slower = std::max(ratio, previous_ratio_);
     const bool stopped = correction <= kNear * floor && !(ratio < kRatio);
     const bool vanishes =
-        ratio < kRatio && correction * ratio <= negligible_ * floor;
+        slower < kRatio && correction * slower <= negligible_ * floor;
+    // The first member has no ratio, and nothing vanishes by it.
+    previous_ratio_ = std::isinf(previous_) ? previous_ : ratio;
     previous_ = correction;
-    stagnant_ =
-        stagnant_ || correction == 0.0 || stopped || (vanishes && has_ratio_);
-    has_ratio_ = true;
+    stagnant_ = stagnant_ || correction == 0.0 || stopped || vanishes;
     return stagnant_;
   }
 
  private:
   double negligible_;
   bool stagnant_ = false;
-  bool has_ratio_ = false;  // Two members have been seen.
   double previous_ = std::numeric_limits<double>::infinity();
+  double previous_ratio_ = std::numeric_limits<double>::infinity();
 };
 
 }  // namespace emmy

@@ -49,6 +49,11 @@ void SymmetricBlockMatrix::SetZero() {
   std::fill_n(matrix_.valuePtr(), matrix_.nonZeros(), 0.0);
 }
 
+void SymmetricBlockMatrix::SetValues(const VectorXd& values) {
+  EMMY_CHECK(values.size() == matrix_.nonZeros(), values.size());
+  std::copy(values.begin(), values.end(), matrix_.valuePtr());
+}
+
 void SymmetricBlockMatrix::Add(const Slot& slot, const Matrix3d& block) {
   for (int c = 0; c < 3; ++c) {
     double* values = matrix_.valuePtr() +

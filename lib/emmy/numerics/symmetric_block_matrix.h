@@ -38,6 +38,13 @@ class SymmetricBlockMatrix {
   // triangle counts.
   void Add(const Slot& slot, const Matrix3d& block);
 
+  // All stored entries in their order, to keep a matrix and have it again;
+  // there must be `values().size()` of them.
+  Eigen::Map<const VectorXd> values() const {
+    return {matrix_.valuePtr(), matrix_.nonZeros()};
+  }
+  void SetValues(const VectorXd& values);
+
   // Lower triangle; entries above the diagonal, in blocks on it, are ignored
   // by everything that reads the matrix as symmetric.
   const Eigen::SparseMatrix<double>& lower() const { return matrix_; }

@@ -1,0 +1,157 @@
+#include "python/simulation.h"
+
+#include <chrono>
+#include <exception>
+#include <sstream>
+#include <utility>
+
+#include "absl/status/statusor.h"
+#include "emmy/integrate/simulate.h"
+#include "emmy/io/history.h"
+
+namespace emmy::python {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+[[noreturn]] void ThrowInputError(const absl::Status& status) {
+  throw InputError(std::string(status.message()));
+}
+
+// The words of the program `emmy` for the same end.
+std::string NotFiniteMessage(const State& state) {
+  std::ostringstream message;
+  message << "energy or momentum is not finite after step " << state.step
+          << " at " << state.time.value << " s";
+  return message.str();
+}
+
+// Python's part in a run that does not hold its lock.
+class Listener {
+ public:
+  Listener(const pybind11::object& progress, int64_t num_steps)
+      : progress_(progress), num_steps_(num_steps) {}
+
+  // False if the run should end, because `progress` says so or because an
+  // exception waits in error().
+  bool Listen(int64_t steps_done) {
+    const bool is_last = steps_done == num_steps_;
+    const Clock::time_point now = Clock::now();
+    if (now < next_ && !is_last) return true;
+    next_ = now + std::chrono::milliseconds(100);
+    const pybind11::gil_scoped_acquire lock;
+    try {
+      if (PyErr_CheckSignals() != 0) throw pybind11::error_already_set();
+      if (progress_.is_none()) return true;
+      return progress_(steps_done, num_steps_).ptr() != Py_False;
+    } catch (...) {
+      // Not through the time loop: it ends by itself, between two steps.
+      error_ = std::current_exception();
+      return false;
+    }
+  }
+
+  const std::exception_ptr& error() const { return error_; }
+
+ private:
+  const pybind11::object& progress_;
+  int64_t num_steps_;
+  Clock::time_point next_ = Clock::now() + std::chrono::milliseconds(100);
+  std::exception_ptr error_;
+};
+
+}  // namespace
+
+Simulation::Simulation(std::string prefix, std::unique_ptr<LoadedCase> loaded,
+                       EnergyMomentumIntegrator integrator)
+    : prefix_(std::move(prefix)),
+      loaded_(std::move(loaded)),
+      integrator_(std::move(integrator)),
+      monitor_(loaded_->model, loaded_->state) {}
+
+std::unique_ptr<Simulation> Simulation::Create(
+    const std::string& prefix, std::unique_ptr<LoadedCase> loaded,
+    const std::optional<std::string>& path,
+    const std::vector<std::string>& overrides) {
+  const IntegratorSettings& settings = loaded->description.integrator;
+  absl::StatusOr<EnergyMomentumIntegrator> integrator =
+      EnergyMomentumIntegrator::Create(loaded->model,
+                                       {.order = settings.order,
+                                        .time_step = settings.time_step,
+                                        .tolerance = settings.tolerance});
+  if (!integrator.ok()) {
+    ThrowInputError(path.has_value()
+                        ? CaseFileError(*path, overrides, integrator.status())
+                        : integrator.status());
+  }
+  return std::unique_ptr<Simulation>(
+      new Simulation(prefix, std::move(loaded), *std::move(integrator)));
+}
+
+std::unique_ptr<Simulation> Simulation::FromFile(
+    const std::string& path, const std::vector<std::string>& overrides) {
+  absl::StatusOr<LoadedCase> loaded = LoadCaseFile(path, overrides);
+  if (!loaded.ok()) ThrowInputError(loaded.status());
+  return Create(path + ": ", std::make_unique<LoadedCase>(*std::move(loaded)),
+                path, overrides);
+}
+
+std::unique_ptr<Simulation> Simulation::FromText(
+    const std::string& text, const std::vector<std::string>& overrides) {
+  absl::StatusOr<Case> description = ParseCase(text, overrides);
+  if (!description.ok()) ThrowInputError(description.status());
+  absl::StatusOr<LoadedCase> loaded = BuildCase(*std::move(description));
+  if (!loaded.ok()) ThrowInputError(loaded.status());
+  return Create("", std::make_unique<LoadedCase>(*std::move(loaded)),
+                std::nullopt, overrides);
+}
+
+void Simulation::Run(const RunOptions& options) {
+  if (running_) {
+    throw std::runtime_error("this simulation is already running");
+  }
+  struct Running {
+    bool& flag;
+    explicit Running(bool& f) : flag(f) { flag = true; }
+    ~Running() { flag = false; }
+  } const running(running_);
+
+  State& state = loaded_->state;
+  const int64_t first = state.step;
+  const bool records = options.record_every > 0;
+  // Until the end of the run it belongs to nobody else: it still moves.
+  const auto history = std::make_shared<History>(
+      records ? HistoryColumns(model()) : std::vector<std::string>());
+  int64_t last_row = -1;
+  const auto record = [&]() {
+    if (!records || last_row == state.step) return;
+    last_row = state.step;
+    history->Append(HistoryRow(model(), state, monitor_.latest(), iterations_));
+  };
+  record();
+
+  Listener listener(options.progress, options.num_steps);
+  SimulationReport report;
+  bool is_finite = true;
+  {
+    const pybind11::gil_scoped_release unlocked;
+    report = Simulate(integrator_, state, options.num_steps,
+                      [&](const State& reached, const StepReport& step) {
+                        monitor_.Observe(reached);
+                        iterations_ = step.iterations;
+                        is_finite = IsFinite(monitor_.latest());
+                        if (!is_finite) return false;
+                        const int64_t done = reached.step - first;
+                        if (records && reached.step % options.record_every == 0)
+                          record();
+                        return listener.Listen(done);
+                      });
+    if (is_finite) record();  // The last step reached.
+  }
+  if (records) history_ = history;
+  if (listener.error() != nullptr) std::rethrow_exception(listener.error());
+  if (!report.ok()) throw StepError(prefix_ + report.message);
+  if (!is_finite) throw StepError(prefix_ + NotFiniteMessage(state));
+}
+
+}  // namespace emmy::python

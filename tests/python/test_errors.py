@@ -1,0 +1,102 @@
+"""What goes wrong arrives as an exception, in the program's words."""
+import math
+import os
+import subprocess
+
+import pytest
+
+import emmy
+
+PROGRAM = os.environ.get("EMMY_PROGRAM", "")
+
+
+def test_kinds():
+    assert issubclass(emmy.InputError, ValueError)
+    assert issubclass(emmy.StepError, RuntimeError)
+    assert emmy.InputError.__module__ == "emmy"
+
+
+@pytest.mark.parametrize(
+    "pointer, value, message",
+    [
+        ("/rigid_bodies/0/box/density", -2700,
+         "/rigid_bodies/0/box/density: must be a finite number > 0 [kg/m^3], "
+         "got -2700"),
+        ("/integrator/time_step", 0, "/integrator/time_step: must be"),
+        ("/integrator/order", 3, "/integrator/order: must be 2, 4 or 6"),
+        ("/rigid_bodies/0/box/densty", 1, "did you mean density?"),
+    ],
+)
+def test_bad_values(box, pointer, value, message):
+    with pytest.raises(emmy.InputError) as caught:
+        emmy.Simulation(box, overrides={pointer: value})
+    assert message in str(caught.value)
+
+
+@pytest.mark.skipif(not PROGRAM, reason="EMMY_PROGRAM is not set")
+@pytest.mark.parametrize(
+    "text", ['{"format": "emmy-case/1"', '{"format": "emmy-case/9"}', "[]", ""]
+)
+def test_messages_of_a_file_are_the_programs(text, tmp_path):
+    path = tmp_path / "case.json"
+    path.write_text(text)
+    program = subprocess.run(
+        [PROGRAM, "run", path], capture_output=True, text=True, check=False
+    )
+    assert program.returncode == 2
+    with pytest.raises(emmy.InputError) as caught:
+        emmy.Simulation.from_file(path)
+    assert str(caught.value) == program.stderr.rstrip("\n")
+
+
+@pytest.mark.skipif(not PROGRAM, reason="EMMY_PROGRAM is not set")
+def test_message_of_a_failed_step_is_the_programs(examples):
+    case = examples / "paper_box.json"
+    overrides = {"/integrator/time_step": 1e9, "/integrator/duration": 1e10,
+                 "/rigid_bodies/0/penalty": 1e-3}
+    program = subprocess.run(
+        [PROGRAM, "run", case, "--quiet",
+         *(f"--set={name}={value}" for name, value in overrides.items())],
+        capture_output=True, text=True, check=False)
+    assert program.returncode == 1
+    simulation = emmy.Simulation.from_file(case, overrides=overrides)
+    with pytest.raises(emmy.StepError) as caught:
+        simulation.run()
+    assert str(caught.value) == program.stderr.rstrip("\n")
+    # Up to the last good step, which is the start.
+    assert simulation.step == 0
+    assert simulation.history["step"].tolist() == [0]
+
+
+def test_files_that_cannot_be_read(tmp_path):
+    for path in (tmp_path, tmp_path / "missing.json"):
+        with pytest.raises(emmy.InputError, match=str(path)):
+            emmy.Simulation.from_file(path)
+
+
+@pytest.mark.parametrize("number", [math.nan, math.inf])
+def test_numbers_that_json_has_not(box, number):
+    box["rigid_bodies"][0]["box"]["density"] = number
+    with pytest.raises(
+        emmy.InputError,
+        match="^/rigid_bodies/0/box/density: must be a finite number, got",
+    ):
+        emmy.Simulation(box)
+
+
+def test_values_that_json_has_not(box):
+    box["purpose"] = {1, 2}
+    with pytest.raises(emmy.InputError, match="^/purpose: must be a value.*set"):
+        emmy.Simulation(box)
+    with pytest.raises(TypeError, match="from_file"):
+        emmy.Simulation(3)
+
+
+def test_counts_out_of_range(box):
+    simulation = emmy.Simulation(box)
+    with pytest.raises(emmy.InputError, match="steps: .*-1"):
+        simulation.run(-1)
+    with pytest.raises(emmy.InputError, match="every: .*0"):
+        simulation.run(1, every=0)
+    with pytest.raises(TypeError):
+        simulation.run(1.5)

@@ -1,0 +1,78 @@
+"""pip install: builds, installs, and imports from where it was put."""
+import importlib.util
+import os
+import shutil
+import subprocess
+import sys
+
+import pytest
+
+from conftest import ROOT
+
+for package in ("pip", "setuptools", "wheel", "venv"):
+    if importlib.util.find_spec(package) is None:
+        pytest.skip(f"{package} is not installed", allow_module_level=True)
+
+PIP_OPTIONS = ["--no-build-isolation", "--no-deps", "--no-index",
+               "--disable-pip-version-check", "--root-user-action=ignore"]
+CHECK = """
+import emmy, sys
+assert emmy.__file__.startswith(sys.argv[1]), emmy.__file__
+simulation = emmy.Simulation.from_file(sys.argv[2])
+simulation.run(10)
+assert simulation.energy.max_relative_error < 1e-14
+import importlib.metadata
+assert importlib.metadata.version("emmy") == emmy.__version__
+"""
+
+
+@pytest.fixture
+def sources(tmp_path):
+    """A copy, because pip leaves its traces where it builds."""
+    copy = tmp_path / "sources"
+    copy.mkdir()
+    for name in ("CMakeLists.txt", "README.md", "pyproject.toml", "setup.py"):
+        shutil.copy2(ROOT / name, copy)
+    for name in ("cmake", "lib", "python"):
+        shutil.copytree(ROOT / name, copy / name)
+    (copy / "tools" / "lib").mkdir(parents=True)
+    shutil.copy2(ROOT / "tools/lib/packages.txt", copy / "tools/lib")
+    return copy
+
+
+def environment(**more):
+    kept = {k: v for k, v in os.environ.items() if k != "PYTHONPATH"}
+    return {**kept, **more}
+
+
+def check(python, place, examples, **more):
+    subprocess.run(
+        [python, "-c", CHECK, str(place), str(examples / "paper_box.json")],
+        check=True, cwd=place, env=environment(**more))
+
+
+def test_pip_packs_what_is_built(sources, examples, tmp_path):
+    target = tmp_path / "target"
+    subprocess.run(
+        [sys.executable, "-m", "pip", "install", *PIP_OPTIONS,
+         "--target", target, "."],
+        check=True, cwd=sources,
+        env=environment(EMMY_CMAKE_BUILD=os.environ["EMMY_BINARY_DIR"]))
+    check(sys.executable, target, examples, PYTHONPATH=str(target))
+    assert (target / "emmy" / "py.typed").exists()
+    assert (target / "emmy" / "_emmy.pyi").exists()
+
+
+def test_pip_builds_from_scratch(sources, examples, tmp_path):
+    """Into a virtual environment, and out of it again; takes minutes."""
+    place = tmp_path / "environment"
+    subprocess.run(
+        [sys.executable, "-m", "venv", "--system-site-packages", place],
+        check=True, env=environment())
+    python = place / "bin" / "python"
+    subprocess.run([python, "-m", "pip", "install", *PIP_OPTIONS, "."],
+                   check=True, cwd=sources, env=environment())
+    check(python, place, examples)
+    subprocess.run([python, "-m", "pip", "uninstall", "-y", "emmy"],
+                   check=True, env=environment())
+    assert not list(place.glob("lib/python3*/site-packages/emmy/*"))

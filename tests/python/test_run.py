@@ -1,0 +1,105 @@
+"""Progress, Ctrl-C and threads."""
+import os
+import signal
+import threading
+import time
+
+import numpy as np
+import pytest
+
+import emmy
+
+FOREVER = 10**12  # Steps.
+
+
+def test_progress_ends_with_the_last_step(box):
+    calls = []
+    emmy.Simulation(box).run(50, progress=lambda *call: calls.append(call))
+    assert calls[-1] == (50, 50)
+    assert calls == sorted(calls)
+
+
+def test_progress_comes_at_most_ten_times_a_second(box):
+    times = []
+
+    def progress(done, total):
+        times.append(time.monotonic())
+        return len(times) < 4
+
+    emmy.Simulation(box).run(FOREVER, every=FOREVER, progress=progress)
+    # 0.1 s apart, less the scheduling of two clocks.
+    assert min(np.diff(times)) > 0.05
+
+
+def test_progress_ends_a_run_by_returning_false(box):
+    simulation = emmy.Simulation(box)
+    history = simulation.run(
+        FOREVER, every=FOREVER, progress=lambda done, total: False
+    )
+    assert simulation.step > 0
+    assert history["step"].tolist() == [0, simulation.step]
+
+
+def test_an_exception_of_progress_arrives(box):
+    simulation = emmy.Simulation(box)
+
+    def progress(done, total):
+        raise LookupError("enough")
+
+    with pytest.raises(LookupError, match="enough"):
+        simulation.run(FOREVER, every=FOREVER, progress=progress)
+    stopped = simulation.step
+    assert simulation.history["step"].tolist() == [0, stopped]
+    simulation.advance()  # It can go on.
+    assert simulation.step == stopped + 1
+
+
+def test_ctrl_c_ends_a_run(box):
+    simulation = emmy.Simulation(box)
+    timer = threading.Timer(0.3, os.kill, (os.getpid(), signal.SIGINT))
+    timer.start()
+    with pytest.raises(KeyboardInterrupt):
+        simulation.run(FOREVER, every=1000)
+    steps = simulation.history["step"]
+    assert steps[-1] == simulation.step > 0
+    assert np.isfinite(simulation.history.data).all()
+
+
+def test_other_threads_go_on_during_a_run(box):
+    simulation = emmy.Simulation(box)
+    counter = 0
+    done = threading.Event()
+
+    def count():
+        nonlocal counter
+        while not done.is_set():
+            counter += 1
+            time.sleep(0.001)
+
+    thread = threading.Thread(target=count)
+    thread.start()
+    simulation.run(
+        FOREVER, every=FOREVER,
+        progress=lambda done_steps, total: counter < 20)
+    done.set()
+    thread.join()
+    assert counter >= 20
+
+
+def test_two_simulations_run_side_by_side(box):
+    expected = emmy.Simulation(box).run().data
+    simulations = [emmy.Simulation(box) for _ in range(2)]
+    threads = [threading.Thread(target=s.run) for s in simulations]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    for simulation in simulations:
+        assert np.array_equal(simulation.history.data, expected)
+
+
+def test_a_simulation_does_not_run_inside_itself(box):
+    simulation = emmy.Simulation(box)
+    with pytest.raises(RuntimeError, match="already running"):
+        simulation.run(10, progress=lambda done, total: simulation.advance())
+    simulation.advance()  # And is free again.

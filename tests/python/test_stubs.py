@@ -1,0 +1,40 @@
+"""The type stubs name what the module has, no more and no less."""
+import ast
+import pathlib
+
+import emmy
+from emmy import _emmy
+
+STUBS = ast.parse(pathlib.Path(emmy.__file__).with_name("_emmy.pyi").read_text())
+
+
+def public(names):
+    return {name for name in names if not name.startswith("_")}
+
+
+def stub_classes():
+    return [
+        node for node in STUBS.body
+        if isinstance(node, ast.ClassDef) and not node.name.startswith("_")
+    ]
+
+
+def test_the_same_names():
+    stubs = {
+        node.name for node in STUBS.body
+        if isinstance(node, (ast.ClassDef, ast.FunctionDef))
+    }
+    assert public(stubs) == public(vars(_emmy)) == set(emmy.__all__)
+
+
+def test_the_same_members():
+    for node in stub_classes():
+        if node.name.endswith("Error"):
+            continue
+        stubs = {item.name for item in node.body
+                 if isinstance(item, ast.FunctionDef)}
+        assert public(stubs) == public(vars(getattr(_emmy, node.name))), node.name
+
+
+def test_types_are_shipped():
+    assert pathlib.Path(emmy.__file__).with_name("py.typed").exists()
