@@ -41,8 +41,10 @@ void Load(const Extrapolation& from, Eigen::Index offset, int lane,
           ExtrapolationLanes<kEntries>* to) {
   Scatter(from.next.data() + offset, lane, to->next);
   for (size_t j = 0; j < to->kDifferences; ++j) {
-    Scatter(&from.differences(offset, static_cast<Eigen::Index>(j)), lane,
-            to->difference[j]);
+    for (size_t i = 0; i < kEntries; ++i) {
+      to->difference[j][i][lane] = from.differences(
+          static_cast<Eigen::Index>(j), offset + static_cast<Eigen::Index>(i));
+    }
   }
 }
 
@@ -51,8 +53,11 @@ void Store(const ExtrapolationLanes<kEntries>& from, int lane,
            Eigen::Index offset, Extrapolation* to) {
   Gather(from.next, lane, to->next.data() + offset);
   for (size_t j = 0; j < from.kDifferences; ++j) {
-    Gather(from.difference[j], lane,
-           &to->differences(offset, static_cast<Eigen::Index>(j)));
+    for (size_t i = 0; i < kEntries; ++i) {
+      to->differences(static_cast<Eigen::Index>(j),
+                      offset + static_cast<Eigen::Index>(i)) =
+          from.difference[j][i][lane];
+    }
   }
 }
 
