@@ -264,6 +264,11 @@ INSTANTIATE_TEST_SUITE_P(Exponents, BatchInvariantsTest,
                          ::testing::Values(6, 8, 10, 12, 14),
                          ::testing::PrintToStringParamName());
 
+TEST_F(BodyBatchTest, KeepsInvariantsOfRelaxedAncfBodies) {
+  ExpectKept(MixedBodies(11, Formulation::kAncf, 1e10, Start::kRelaxed),
+             100000);
+}
+
 TEST_F(BodyBatchTest, KeepsInvariantsOfConventionalBodies) {
   ExpectKept(MixedBodies(11, Formulation::kConventional), 100000);
 }
@@ -311,7 +316,7 @@ TEST_F(BodyBatchTest, EnergyErrorsOfAncfBodiesAreRandomWalks) {
 }
 
 // Here the increments are pairs, and errors a thousandth of a rounding of ΔW:
-// the bound is what the rule of (BATCH-3) leaves, 2⁻¹⁰ u |ΔW|, always of one
+// the bound is what the rule of (BATCH-4) leaves, 2⁻¹⁰ u |ΔW|, always of one
 // sign. It is a tenth of what a random walk of roundings of ΔW comes to.
 TEST_F(BodyBatchTest, EnergyErrorsOfConventionalBodiesAreBelowRounding) {
   const GrowthLaw law =

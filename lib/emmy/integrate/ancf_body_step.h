@@ -60,10 +60,8 @@ class AncfBodyStep {
                        const Matrix3d& rate_increment_guess,
                        AncfBodyIncrement* increment) const;
 
-  // ¼ Δt² b is far below M: kAutomatic starts with M alone.
-  bool mass_dominates() const { return mass_dominates_; }
-  // Of two principal second moments: the smallest moment of inertia [kg m²].
-  double smallest_moment_sum() const { return smallest_moment_sum_; }
+  // Whether ¼ Δt² b is not far below M, so that (EM-6) is the tangent.
+  bool penalty_dominates() const { return !mass_dominates_; }
 
  private:
   struct Evaluation;

@@ -58,16 +58,23 @@ struct AncfBlock {
   ExtrapolationLanes<9> acceleration;
 
   // Constants of bodies and time step, c as in (EM-6).
-  alignas(64) Lanes moment[3];        // Mⁱⁱ
-  Lanes inverse_moment[3];            // 1/Mⁱⁱ
-  Lanes impulse[6];                   // Δt bₖ
-  Lanes normal_inverse[3];            // 1/(Mⁱⁱ + cᵢ)
-  Lanes shear_first[3];               // Mⁿ/determinant
-  Lanes shear_second[3];              // Mᵐ/determinant
-  Lanes shear_coupling[3];            // c/determinant
-  Lanes inverse_smallest_moment_sum;  // Of two Mⁱⁱ.
-  Lanes second_order;                 // Δt (1 + max c/min M)
-  Lanes mass_dominates;               // 1: M alone is the tangent.
+  alignas(64) Lanes moment[3];  // Mⁱⁱ
+  Lanes impulse[6];             // Δt bₖ
+  Lanes normal_inverse[3];      // 1/(Mⁱⁱ + cᵢ)
+  Lanes shear_first[3];         // Mⁿ/determinant
+  Lanes shear_second[3];        // Mᵐ/determinant
+  Lanes shear_coupling[3];      // c/determinant
+  // The same for a residual c ∘ q.
+  Lanes normal_share[3];  // cᵢ/(Mⁱⁱ + cᵢ)
+  Lanes first_share[3];   // c Mⁿ/determinant
+  Lanes second_share[3];  // c Mᵐ/determinant
+  // And for an antisymmetric one.
+  Lanes first_moment[3];   // (½ Mⁿ + c)/determinant
+  Lanes second_moment[3];  // (½ Mᵐ + c)/determinant
+  // For bounds of what is left of a correction.
+  Lanes share_square;         // Square of the norm of q ↦ the shares.
+  Lanes stiffening_square;    // Of ¼ Δt² max b/min M.
+  Lanes second_order_square;  // Of Δt (1 + max c/min M).
 };
 
 // Conventional bodies in principal axes.
@@ -77,10 +84,10 @@ struct ConventionalBlock {
   CompensatedLanes<3> angular_velocity;
   ExtrapolationLanes<3> acceleration;
 
-  // aᵢ of (BATCH-3) as a pair; twice the largest |aᵢ|.
+  // aᵢ of (BATCH-4) as a pair; 2 max aᵢ².
   alignas(64) Lanes coupling[3];
   Lanes coupling_low[3];
-  Lanes twice_largest_coupling;
+  Lanes coupling_square;
 };
 
 }  // namespace emmy

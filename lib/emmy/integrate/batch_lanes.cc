@@ -106,29 +106,45 @@ void Predict(const BatchStep& step, const double* change, int lane,
 
 }  // namespace
 
-void SetConstants(const AncfRigidBody& body, const AncfBodyStep& step,
-                  double time_step, int lane, AncfBlock* block) {
+void SetConstants(const AncfRigidBody& body, double time_step, int lane,
+                  AncfBlock* block) {
   const Vector3d moment = body.second_moment().diagonal();
   const Vector6d b = body.penalty_stiffness();
   const Vector6d c = (0.25 * time_step * time_step) * b;
   const Vector6d impulse = time_step * b;
   Scatter(moment.data(), lane, block->moment);
   Scatter(impulse.data(), lane, block->impulse);
+  double share_square = 0.0;
   for (int i = 0; i < 3; ++i) {
     const auto k = static_cast<size_t>(i);
-    block->inverse_moment[k][lane] = 1.0 / moment(i);
-    block->normal_inverse[k][lane] = 1.0 / (moment(i) + c(i));
+    const double inverse = 1.0 / (moment(i) + c(i));
+    block->normal_inverse[k][lane] = inverse;
+    block->normal_share[k][lane] = c(i) * inverse;
     const auto [m, n] = AncfRigidBody::kShearPairs[k];
+    const double shear = c(3 + i);
     const double determinant =
-        moment(m) * moment(n) + c(3 + i) * (moment(m) + moment(n));
-    block->shear_first[k][lane] = moment(n) / determinant;
-    block->shear_second[k][lane] = moment(m) / determinant;
-    block->shear_coupling[k][lane] = c(3 + i) / determinant;
+        moment(m) * moment(n) + shear * (moment(m) + moment(n));
+    const double first = moment(n) / determinant;
+    const double second = moment(m) / determinant;
+    block->shear_first[k][lane] = first;
+    block->shear_second[k][lane] = second;
+    block->shear_coupling[k][lane] = shear / determinant;
+    block->first_share[k][lane] = shear * first;
+    block->second_share[k][lane] = shear * second;
+    block->first_moment[k][lane] = 0.5 * first + shear / determinant;
+    block->second_moment[k][lane] = 0.5 * second + shear / determinant;
+    // A shear is the sum of two entries.
+    share_square =
+        std::max({share_square, c(i) * inverse * c(i) * inverse,
+                  2.0 * shear * shear * (first * first + second * second)});
   }
-  block->inverse_smallest_moment_sum[lane] = 1.0 / step.smallest_moment_sum();
-  block->second_order[lane] =
-      std::abs(time_step) * (1.0 + c.maxCoeff() / moment.minCoeff());
-  block->mass_dominates[lane] = step.mass_dominates() ? 1.0 : 0.0;
+  const double smallest = moment.minCoeff();
+  const double second_order =
+      std::abs(time_step) * (1.0 + c.maxCoeff() / smallest);
+  block->share_square[lane] = share_square;
+  const double stiffening = c.maxCoeff() / smallest;
+  block->stiffening_square[lane] = stiffening * stiffening;
+  block->second_order_square[lane] = second_order * second_order;
 }
 
 void SetConstants(const ConventionalRigidBody& body, double time_step, int lane,
@@ -145,7 +161,7 @@ void SetConstants(const ConventionalRigidBody& body, double time_step, int lane,
     block->coupling_low[k][lane] = coupling.lo;
     largest = std::max(largest, std::abs(coupling.hi));
   }
-  block->twice_largest_coupling[lane] = 2.0 * largest;
+  block->coupling_square[lane] = 2.0 * largest * largest;
 }
 
 void LoadLane(const ModelBody& body, const State& state, int lane,

@@ -12,9 +12,9 @@
 
 namespace emmy {
 
-// The constants of a body, which is in principal axes, and of its step.
-void SetConstants(const AncfRigidBody& body, const AncfBodyStep& step,
-                  double time_step, int lane, AncfBlock* block);
+// The constants of a body, which is in principal axes, and of a step.
+void SetConstants(const AncfRigidBody& body, double time_step, int lane,
+                  AncfBlock* block);
 void SetConstants(const ConventionalRigidBody& body, double time_step, int lane,
                   ConventionalBlock* block);
 

@@ -79,8 +79,7 @@ struct BodyBatch::Data {
   }
 
   void AddConstants(const ModelBody& body, int lane, AncfBlock* block) const {
-    const AncfBodyStep body_step(*body.ancf(), options.time_step, newton());
-    SetConstants(*body.ancf(), body_step, options.time_step, lane, block);
+    SetConstants(*body.ancf(), options.time_step, lane, block);
   }
   void AddConstants(const ModelBody& body, int lane,
                     ConventionalBlock* block) const {

@@ -1,7 +1,7 @@
 // One step of several free conventional bodies in principal axes, one a lane.
 //
 // In principal axes (CRB-4), divided by Jᵢ, is
-//   ΔWᵢ + aᵢ W̄ⱼ W̄ₖ = 0,  aᵢ = Δt (Jₖ − Jⱼ)/Jᵢ, i, j, k cyclic     (BATCH-3)
+//   ΔWᵢ + aᵢ W̄ⱼ W̄ₖ = 0,  aᵢ = Δt (Jₖ − Jⱼ)/Jᵢ, i, j, k cyclic     (BATCH-4)
 // and its Jacobian 1 + O with Oᵢⱼ = ½ aᵢ W̄ₖ, Oᵢₖ = ½ aᵢ W̄ⱼ, of the size ½
 // |W|Δt. The residual is evaluated in pairs of doubles, aᵢ too, for what its
 // rounding would leave has a mean of its own and adds up. From an extrapolated
@@ -40,14 +40,30 @@ class ConventionalPackStep {
   // Advances the lanes that are alive and converge; returns the others.
   HWY_INLINE Flag Advance() {
     const Flag alive = Broadcast(0.0) < Load(block_.centre.alive + lane_);
-    PackSum3 change;
-    const Flag done = Solve(alive, &change);
-    if (All(done)) {
-      Commit(Writer<true>(done), change);
-    } else {
-      Commit(Writer<false>(done), change);
+    Pack3 change =
+        Broadcast(step_.time_step) * Load3(block_.acceleration.next, lane_);
+    Flag active = alive;
+    Flag failed = Without(alive, alive);
+    Pack previous = Broadcast(0.0);
+    Pack iterations = Load(block_.centre.iterations + lane_);
+    for (int i = 0; i < kMaxIterations; ++i) {
+      iterations = iterations + OrZero(active, Broadcast(1.0));
+      // A lane is written as soon as it has converged, and left alone while
+      // others go on.
+      Pack size;
+      const Flag done = Iterate(active, &change, &size);
+      active = Without(active, done);
+      if (None(active)) break;
+      if (i > 0) {
+        const Flag slow = And(active, Broadcast(0.25) * previous < size);
+        failed = Or(failed, slow);
+        active = Without(active, slow);
+        if (None(active)) break;
+      }
+      previous = size;
     }
-    return Without(alive, done);
+    Store(iterations, block_.centre.iterations + lane_);
+    return Or(failed, active);
   }
 
  private:
@@ -84,55 +100,44 @@ class ConventionalPackStep {
             NegMulAdd(coupling_.z, MulAdd(u.y, w.x, u.x * w.y), v.z)};
   }
 
-  HWY_INLINE Flag Solve(Flag alive, PackSum3* result) {
-    const Pack half = Broadcast(0.5);
-    const Pack twice_largest = Load(block_.twice_largest_coupling + lane_);
-    Pack3 change =
-        Broadcast(step_.time_step) * Load3(block_.acceleration.next, lane_);
-    Flag active = alive;
-    Flag failed = Without(alive, alive);
-    Pack previous = Broadcast(0.0);
-    Pack iterations = Load(block_.centre.iterations + lane_);
-    for (int i = 0; i < kMaxIterations; ++i) {
-      iterations = iterations + OrZero(active, Broadcast(1.0));
-      const PackSum3 mean = Mean(change);
-      const Pack3 residual = {Residual(change.x, 0, mean.y, mean.z),
-                              Residual(change.y, 1, mean.z, mean.x),
-                              Residual(change.z, 2, mean.x, mean.y)};
-      const Pack3 half_mean = half * Pack3{mean.x.sum, mean.y.sum, mean.z.sum};
-      const Pack3 correction =
-          Less(residual, half_mean, Less(residual, half_mean, residual));
-      const PackSum3 corrected = {FastTwoDifference(change.x, correction.x),
-                                  FastTwoDifference(change.y, correction.y),
-                                  FastTwoDifference(change.z, correction.z)};
-      if (i == 0) {
-        *result = corrected;
-      } else {
-        *result = {Choose(active, corrected.x, result->x),
-                   Choose(active, corrected.y, result->y),
-                   Choose(active, corrected.z, result->z)};
-      }
-      change = {result->x.sum, result->y.sum, result->z.sum};
-      const Pack size = MaxAbsolute(correction);
-      // |O| in the norm of the largest entry.
-      const Pack contraction = twice_largest * MaxAbsolute(half_mean);
-      const Pack left =
-          MulAdd(contraction * contraction, contraction, twice_largest * size) *
-          size;
-      const Flag small = left <= Broadcast(0x1p-63) * MaxAbsolute(change);
-      const Flag done = And(small, IsFinite(change));
-      active = Without(active, done);
-      if (None(active)) break;
-      if (i > 0) {
-        const Flag slow = And(active, half * previous < size);
-        failed = Or(failed, slow);
-        active = Without(active, slow);
-        if (None(active)) break;
-      }
-      previous = size;
+  // One correction of ΔW, and the end of the step for those of the `active`
+  // lanes where it was the last: they are returned. `size` is that of the
+  // correction, squared.
+  HWY_INLINE Flag Iterate(Flag active, Pack3* rate_change, Pack* size) {
+    const Pack3& start = *rate_change;
+    const PackSum3 mean = Mean(start);
+    const Pack3 residual = {Residual(start.x, 0, mean.y, mean.z),
+                            Residual(start.y, 1, mean.z, mean.x),
+                            Residual(start.z, 2, mean.x, mean.y)};
+    const Pack3 half_mean =
+        Broadcast(0.5) * Pack3{mean.x.sum, mean.y.sum, mean.z.sum};
+    const Pack3 correction =
+        Less(residual, half_mean, Less(residual, half_mean, residual));
+    const PackSum3 change = {FastTwoDifference(start.x, correction.x),
+                             FastTwoDifference(start.y, correction.y),
+                             FastTwoDifference(start.z, correction.z)};
+    const Pack3 high = {change.x.sum, change.y.sum, change.z.sum};
+    // Squares of norms, so that a sum of two has a factor of two: |O|³ of the
+    // correction, and what is quadratic.
+    const Pack square = Dot(correction, correction);
+    const Pack high_square = Dot(high, high);
+    const Pack coupling = Load(block_.coupling_square + lane_);
+    const Pack contraction = coupling * Dot(half_mean, half_mean);
+    const Pack left =
+        MulAdd(contraction * contraction, contraction, coupling * square) *
+        square;
+    const Pack sum = square + high_square;
+    const Flag done =
+        And(active, And(left <= Broadcast(0x1p-126 / 2.0) * high_square,
+                        sum - sum <= Broadcast(0.0)));
+    *rate_change = high;
+    *size = square;
+    if (All(done)) {
+      Commit(Writer<true>(done), change);
+    } else if (!None(done)) {
+      Commit(Writer<false>(done), change);
     }
-    Store(iterations, block_.centre.iterations + lane_);
-    return Without(Without(alive, failed), active);
+    return done;
   }
 
   // 1/√(1 + s) − 1, to a rounding of itself.

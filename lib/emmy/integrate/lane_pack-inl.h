@@ -14,7 +14,6 @@
 #endif
 
 #include <cstddef>
-#include <limits>
 
 #include "emmy/integrate/batch_blocks.h"
 #include "hwy/highway.h"
@@ -57,10 +56,7 @@ HWY_INLINE Pack MulSub(Pack a, Pack b, Pack c) {
   return {hn::MulSub(a.v, b.v, c.v)};
 }
 HWY_INLINE Pack SquareRoot(Pack a) { return {hn::Sqrt(a.v)}; }
-HWY_INLINE Pack Absolute(Pack a) { return {hn::Abs(a.v)}; }
-// Which of the two is returned if one is NaN depends on the instruction set, so
-// that a NaN may go unseen: see IsFinite.
-HWY_INLINE Pack Larger(Pack a, Pack b) { return {hn::Max(a.v, b.v)}; }
+// Which of the two is returned if one is NaN depends on the instruction set.
 HWY_INLINE Pack Smaller(Pack a, Pack b) { return {hn::Min(a.v, b.v)}; }
 
 HWY_INLINE Flag operator<(Pack a, Pack b) { return {hn::Lt(a.v, b.v)}; }
@@ -100,21 +96,16 @@ HWY_INLINE Pack3 NegMulAdd(Pack s, const Pack3& a, const Pack3& b) {
 HWY_INLINE Pack Dot(const Pack3& a, const Pack3& b) {
   return MulAdd(a.z, b.z, MulAdd(a.y, b.y, a.x * b.x));
 }
+// a·b + c
+HWY_INLINE Pack Dot(const Pack3& a, const Pack3& b, Pack c) {
+  return MulAdd(a.z, b.z, MulAdd(a.y, b.y, MulAdd(a.x, b.x, c)));
+}
+HWY_INLINE Pack3 Times(const Pack3& a, const Pack3& b) {
+  return {a.x * b.x, a.y * b.y, a.z * b.z};
+}
 HWY_INLINE Pack3 Cross(const Pack3& a, const Pack3& b) {
   return {MulSub(a.y, b.z, a.z * b.y), MulSub(a.z, b.x, a.x * b.z),
           MulSub(a.x, b.y, a.y * b.x)};
-}
-// False if an entry is NaN or infinite, or the sum overflows.
-HWY_INLINE Flag IsFinite(const Pack3& a) {
-  const Pack sum = (a.x + a.y) + a.z;
-  return sum - sum <= Broadcast(0.0);
-}
-HWY_INLINE Pack MaxAbsolute(const Pack3& a) {
-  return Larger(Larger(Absolute(a.x), Absolute(a.y)), Absolute(a.z));
-}
-HWY_INLINE Pack3 Choose(Flag condition, const Pack3& yes, const Pack3& no) {
-  return {Choose(condition, yes.x, no.x), Choose(condition, yes.y, no.y),
-          Choose(condition, yes.z, no.z)};
 }
 HWY_INLINE Pack3 Load3(const Lanes* entries, int lane) {
   return {Load(entries[0] + lane), Load(entries[1] + lane),
@@ -130,6 +121,13 @@ HWY_INLINE Pack33 operator+(const Pack33& m, const Pack33& n) {
 }
 HWY_INLINE Pack33 operator-(const Pack33& m, const Pack33& n) {
   return {m.a - n.a, m.b - n.b, m.c - n.c};
+}
+HWY_INLINE Pack33 MulAdd(Pack s, const Pack33& m, const Pack33& n) {
+  return {MulAdd(s, m.a, n.a), MulAdd(s, m.b, n.b), MulAdd(s, m.c, n.c)};
+}
+HWY_INLINE Pack33 NegMulAdd(Pack s, const Pack33& m, const Pack33& n) {
+  return {NegMulAdd(s, m.a, n.a), NegMulAdd(s, m.b, n.b),
+          NegMulAdd(s, m.c, n.c)};
 }
 HWY_INLINE Pack33 operator*(Pack s, const Pack33& m) {
   return {s * m.a, s * m.b, s * m.c};
@@ -147,13 +145,6 @@ HWY_INLINE Pack3 TransposedTimes(const Pack33& m, const Pack3& v) {
 HWY_INLINE Pack33 TransposedTimes(const Pack33& m, const Pack33& n) {
   return {TransposedTimes(m, n.a), TransposedTimes(m, n.b),
           TransposedTimes(m, n.c)};
-}
-HWY_INLINE Pack MaxAbsolute(const Pack33& m) {
-  return Larger(Larger(MaxAbsolute(m.a), MaxAbsolute(m.b)), MaxAbsolute(m.c));
-}
-HWY_INLINE Pack33 Choose(Flag condition, const Pack33& yes, const Pack33& no) {
-  return {Choose(condition, yes.a, no.a), Choose(condition, yes.b, no.b),
-          Choose(condition, yes.c, no.c)};
 }
 HWY_INLINE Pack33 Load33(const Lanes* entries, int lane) {
   return {Load3(entries, lane), Load3(entries + 3, lane),
@@ -184,11 +175,6 @@ HWY_INLINE PackSum FastTwoSum(Pack a, Pack b) {
 HWY_INLINE PackSum FastTwoDifference(Pack a, Pack b) {
   const Pack difference = a - b;
   return {difference, (a - difference) - b};
-}
-HWY_INLINE PackSum Choose(Flag condition, const PackSum& yes,
-                          const PackSum& no) {
-  return {Choose(condition, yes.sum, no.sum),
-          Choose(condition, yes.error, no.error)};
 }
 HWY_INLINE PackSum TwoProduct(Pack a, Pack b) {  // (SUM-3)
   const Pack product = a * b;
@@ -309,24 +295,25 @@ HWY_INLINE void Predict(const Pack3 (&acceleration)[kVectors],
   Pack error1 = error0;
   Pack error2 = error0;
   Pack error3 = error0;
-  Pack d1[3 * kVectors];
-  Pack d2[3 * kVectors];
-  Pack d3[3 * kVectors];
 #pragma GCC unroll 9
   for (size_t i = 0; i < 3 * kVectors; ++i) {
     const Pack3& vector = acceleration[i / 3];
     const Pack value = i % 3 == 0 ? vector.x : i % 3 == 1 ? vector.y : vector.z;
-    d1[i] = value - Load(kept->difference[0][i] + lane);
-    d2[i] = d1[i] - Load(kept->difference[1][i] + lane);
-    d3[i] = d2[i] - Load(kept->difference[2][i] + lane);
-    const Pack d4 = d3[i] - Load(kept->difference[3][i] + lane);
-    writer.Write(value, kept->difference[0][i] + lane);
-    writer.Write(d1[i], kept->difference[1][i] + lane);
-    writer.Write(d2[i], kept->difference[2][i] + lane);
-    writer.Write(d3[i], kept->difference[3][i] + lane);
-    error0 = MulAdd(d1[i], d1[i], error0);
-    error1 = MulAdd(d2[i], d2[i], error1);
-    error2 = MulAdd(d3[i], d3[i], error2);
+    double* const kept0 = kept->difference[0][i] + lane;
+    double* const kept1 = kept->difference[1][i] + lane;
+    double* const kept2 = kept->difference[2][i] + lane;
+    double* const kept3 = kept->difference[3][i] + lane;
+    const Pack d1 = value - Load(kept0);
+    const Pack d2 = d1 - Load(kept1);
+    const Pack d3 = d2 - Load(kept2);
+    const Pack d4 = d3 - Load(kept3);
+    writer.Write(value, kept0);
+    writer.Write(d1, kept1);
+    writer.Write(d2, kept2);
+    writer.Write(d3, kept3);
+    error0 = MulAdd(d1, d1, error0);
+    error1 = MulAdd(d2, d2, error1);
+    error2 = MulAdd(d3, d3, error2);
     error3 = MulAdd(d4, d4, error3);
   }
   const Pack one = Broadcast(1.0);
@@ -339,46 +326,14 @@ HWY_INLINE void Predict(const Pack3 (&acceleration)[kVectors],
   const Pack use1 = OrZero(first, one);
 #pragma GCC unroll 9
   for (size_t i = 0; i < 3 * kVectors; ++i) {
-    const Pack3& vector = acceleration[i / 3];
-    const Pack value = i % 3 == 0 ? vector.x : i % 3 == 1 ? vector.y : vector.z;
-    writer.Write(
-        MulAdd(use1, d1[i], MulAdd(use2, d2[i], MulAdd(use3, d3[i], value))),
-        kept->next[i] + lane);
+    const Pack d0 = Load(kept->difference[0][i] + lane);
+    const Pack d1 = Load(kept->difference[1][i] + lane);
+    const Pack d2 = Load(kept->difference[2][i] + lane);
+    const Pack d3 = Load(kept->difference[3][i] + lane);
+    writer.Write(MulAdd(use1, d1, MulAdd(use2, d2, MulAdd(use3, d3, d0))),
+                 kept->next[i] + lane);
   }
 }
-
-// StagnationMonitor of newton.h for the sequences of several bodies.
-class PackMonitor {
- public:
-  explicit PackMonitor(double negligible)
-      : negligible_(negligible),
-        previous_(Broadcast(std::numeric_limits<double>::infinity())),
-        previous_ratio_(previous_),
-        stagnant_{previous_ < Broadcast(0.0)} {}
-
-  HWY_INLINE Flag Update(Pack correction, Pack floor) {
-    const Pack ratio = correction / previous_;
-    const Pack slower = Larger(ratio, previous_ratio_);
-    const Pack half = Broadcast(0.5);
-    const Flag stopped =
-        Without(correction <= Broadcast(1e3) * floor, ratio < half);
-    const Flag vanishes = And(
-        slower < half, correction * slower <= Broadcast(negligible_) * floor);
-    previous_ratio_ =
-        Choose(previous_ < Broadcast(std::numeric_limits<double>::infinity()),
-               ratio, previous_);
-    previous_ = correction;
-    stagnant_ =
-        Or(Or(stagnant_, correction <= Broadcast(0.0)), Or(stopped, vanishes));
-    return stagnant_;
-  }
-
- private:
-  double negligible_;
-  Pack previous_;
-  Pack previous_ratio_;
-  Flag stagnant_;
-};
 
 }  // namespace HWY_NAMESPACE
 }  // namespace emmy
