@@ -104,6 +104,18 @@ const std::vector<Ratio>& Ratios() {
        "one_body/ancf_undeformed", kYardstick, 5.5, false},
       {"one conventional body over Runge-Kutta", "one_body/conventional",
        kYardstick, 1.3, false},
+      {"batch of 1000 ANCF bodies, AVX-512, a body, over Runge-Kutta",
+       "batch/ancf_avx512/bodies:1000/threads:1", kYardstick, 0.45, false},
+      {"batch of 1000 ANCF bodies, AVX2, a body, over Runge-Kutta",
+       "batch/ancf_avx2/bodies:1000/threads:1", kYardstick, 0.9, false},
+      {"batch of 100,000 ANCF bodies over one of 1000, a body",
+       "batch/ancf/bodies:100000/threads:1", "batch/ancf/bodies:1000/threads:1",
+       1.3, false},
+      {"batch of 1000 conventional bodies, a body, over Runge-Kutta",
+       "batch/conventional/bodies:1000/threads:1", kYardstick, 0.12, false},
+      {"batch of 20,000 ANCF bodies: one thread over two",
+       "batch_clock/ancf/bodies:20000/threads:1",
+       "batch_clock/ancf/bodies:20000/threads:2", 1.8, true},
       {"box and truss, ANCF, over Runge-Kutta", "box_and_truss/ancf",
        kYardstick, 25.0, false},
       {"box and truss: conventional over ANCF", "box_and_truss/conventional",
@@ -146,8 +158,9 @@ const std::vector<Growth>& Growths() {
 std::string TimingReport(const TimingRun& run) {
   std::string text = absl::StrFormat(
       "Measured %s on %s; emmy %s. Medians of the processor time of "
-      "the repetitions; the spread is the largest less the smallest over the "
-      "median. A run whose laws are not kept has no time.\n\n",
+      "the repetitions, for batches of one step of one body; the spread is the "
+      "largest less the smallest over the median. A run whose laws are not "
+      "kept has no time.\n\n",
       run.date, run.processor, run.program);
   absl::StrAppend(&text, "### Ratios\n\n", RatioRows(run), "\n### Growth\n\n",
                   GrowthRows(run), "\n### Times\n\n", TimeRows(run));

@@ -8,6 +8,7 @@
 #include "absl/base/attributes.h"
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_format.h"
+#include "emmy/integrate/failure_text.h"
 
 namespace emmy {
 namespace {
@@ -61,19 +62,6 @@ ABSL_ATTRIBUTE_NOINLINE BodyStepResult SolveInGeneral(
       &general);
   increment->Set(general);
   return result;
-}
-
-const char* Reason(Termination termination) {
-  switch (termination) {
-    case Termination::kSingularTangent:
-      return "the tangent is singular";
-    case Termination::kNonFinite:
-      return "a value is not finite";
-    case Termination::kConverged:
-    case Termination::kMaxIterations:
-      break;
-  }
-  return "the iteration does not converge";
 }
 
 }  // namespace
@@ -157,7 +145,7 @@ bool ModelStep::Accept(const BodyStepResult& result, const State& state,
       "step %d at t = %.17g s: %s, worst at %s (time step %g s, %d "
       "iterations, last correction %.3g); the state is that of the last good "
       "step; a smaller time step may help",
-      state.step + 1, state.time.value, Reason(result.termination), name(),
+      state.step + 1, state.time.value, FailureText(result.termination), name(),
       time_step_, result.iterations, result.correction);
   return false;
 }

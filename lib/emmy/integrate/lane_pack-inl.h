@@ -1,0 +1,342 @@
+// Several bodies' numbers in one vector register, with the operators of one.
+//
+// Compiled once for each instruction set; see batch_kernels.cc. Every operation
+// acts on each lane by itself and rounds as IEEE 754 says, so that a lane has
+// the same bits in a vector of any width. MulAdd rounds once where the
+// instruction set has that operation, which is all from AVX2 on and Arm's; the
+// older ones round the product too, and have bits of their own.
+
+#if defined(EMMY_INTEGRATE_LANE_PACK_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef EMMY_INTEGRATE_LANE_PACK_INL_H_
+#undef EMMY_INTEGRATE_LANE_PACK_INL_H_
+#else
+#define EMMY_INTEGRATE_LANE_PACK_INL_H_
+#endif
+
+#include <cstddef>
+
+#include "emmy/integrate/batch_blocks.h"
+#include "hwy/highway.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace emmy {
+namespace HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+using PackTag = hn::CappedTag<double, kBatchLanes>;
+inline constexpr int kPackLanes = static_cast<int>(hn::MaxLanes(PackTag()));
+
+struct Pack {
+  hn::Vec<PackTag> v;
+};
+struct Flag {
+  hn::Mask<PackTag> m;
+};
+
+HWY_INLINE Pack Broadcast(double x) { return {hn::Set(PackTag(), x)}; }
+HWY_INLINE Pack Load(const double* lanes) {
+  return {hn::Load(PackTag(), lanes)};
+}
+HWY_INLINE void Store(Pack x, double* lanes) {
+  hn::Store(x.v, PackTag(), lanes);
+}
+
+HWY_INLINE Pack operator+(Pack a, Pack b) { return {hn::Add(a.v, b.v)}; }
+HWY_INLINE Pack operator-(Pack a, Pack b) { return {hn::Sub(a.v, b.v)}; }
+HWY_INLINE Pack operator*(Pack a, Pack b) { return {hn::Mul(a.v, b.v)}; }
+HWY_INLINE Pack operator/(Pack a, Pack b) { return {hn::Div(a.v, b.v)}; }
+// a b + c, c − a b, a b − c.
+HWY_INLINE Pack MulAdd(Pack a, Pack b, Pack c) {
+  return {hn::MulAdd(a.v, b.v, c.v)};
+}
+HWY_INLINE Pack NegMulAdd(Pack a, Pack b, Pack c) {
+  return {hn::NegMulAdd(a.v, b.v, c.v)};
+}
+HWY_INLINE Pack MulSub(Pack a, Pack b, Pack c) {
+  return {hn::MulSub(a.v, b.v, c.v)};
+}
+HWY_INLINE Pack SquareRoot(Pack a) { return {hn::Sqrt(a.v)}; }
+// Which of the two is returned if one is NaN depends on the instruction set.
+HWY_INLINE Pack Smaller(Pack a, Pack b) { return {hn::Min(a.v, b.v)}; }
+
+HWY_INLINE Flag operator<(Pack a, Pack b) { return {hn::Lt(a.v, b.v)}; }
+HWY_INLINE Flag operator<=(Pack a, Pack b) { return {hn::Le(a.v, b.v)}; }
+HWY_INLINE Flag And(Flag a, Flag b) { return {hn::And(a.m, b.m)}; }
+HWY_INLINE Flag Or(Flag a, Flag b) { return {hn::Or(a.m, b.m)}; }
+// a and not b.
+HWY_INLINE Flag Without(Flag a, Flag b) { return {hn::AndNot(b.m, a.m)}; }
+HWY_INLINE bool All(Flag a) { return hn::AllTrue(PackTag(), a.m); }
+HWY_INLINE bool None(Flag a) { return hn::AllFalse(PackTag(), a.m); }
+HWY_INLINE Pack Choose(Flag condition, Pack yes, Pack no) {
+  return {hn::IfThenElse(condition.m, yes.v, no.v)};
+}
+HWY_INLINE Pack OrZero(Flag condition, Pack yes) {
+  return {hn::IfThenElseZero(condition.m, yes.v)};
+}
+
+struct Pack3 {
+  Pack x, y, z;
+};
+HWY_INLINE Pack3 operator+(const Pack3& a, const Pack3& b) {
+  return {a.x + b.x, a.y + b.y, a.z + b.z};
+}
+HWY_INLINE Pack3 operator-(const Pack3& a, const Pack3& b) {
+  return {a.x - b.x, a.y - b.y, a.z - b.z};
+}
+HWY_INLINE Pack3 operator*(Pack s, const Pack3& a) {
+  return {s * a.x, s * a.y, s * a.z};
+}
+HWY_INLINE Pack3 MulAdd(Pack s, const Pack3& a, const Pack3& b) {
+  return {MulAdd(s, a.x, b.x), MulAdd(s, a.y, b.y), MulAdd(s, a.z, b.z)};
+}
+HWY_INLINE Pack3 NegMulAdd(Pack s, const Pack3& a, const Pack3& b) {
+  return {NegMulAdd(s, a.x, b.x), NegMulAdd(s, a.y, b.y),
+          NegMulAdd(s, a.z, b.z)};
+}
+HWY_INLINE Pack Dot(const Pack3& a, const Pack3& b) {
+  return MulAdd(a.z, b.z, MulAdd(a.y, b.y, a.x * b.x));
+}
+// a·b + c
+HWY_INLINE Pack Dot(const Pack3& a, const Pack3& b, Pack c) {
+  return MulAdd(a.z, b.z, MulAdd(a.y, b.y, MulAdd(a.x, b.x, c)));
+}
+HWY_INLINE Pack3 Times(const Pack3& a, const Pack3& b) {
+  return {a.x * b.x, a.y * b.y, a.z * b.z};
+}
+HWY_INLINE Pack3 Cross(const Pack3& a, const Pack3& b) {
+  return {MulSub(a.y, b.z, a.z * b.y), MulSub(a.z, b.x, a.x * b.z),
+          MulSub(a.x, b.y, a.y * b.x)};
+}
+HWY_INLINE Pack3 Load3(const Lanes* entries, int lane) {
+  return {Load(entries[0] + lane), Load(entries[1] + lane),
+          Load(entries[2] + lane)};
+}
+
+// Columns a, b, c.
+struct Pack33 {
+  Pack3 a, b, c;
+};
+HWY_INLINE Pack33 operator+(const Pack33& m, const Pack33& n) {
+  return {m.a + n.a, m.b + n.b, m.c + n.c};
+}
+HWY_INLINE Pack33 operator-(const Pack33& m, const Pack33& n) {
+  return {m.a - n.a, m.b - n.b, m.c - n.c};
+}
+HWY_INLINE Pack33 MulAdd(Pack s, const Pack33& m, const Pack33& n) {
+  return {MulAdd(s, m.a, n.a), MulAdd(s, m.b, n.b), MulAdd(s, m.c, n.c)};
+}
+HWY_INLINE Pack33 NegMulAdd(Pack s, const Pack33& m, const Pack33& n) {
+  return {NegMulAdd(s, m.a, n.a), NegMulAdd(s, m.b, n.b),
+          NegMulAdd(s, m.c, n.c)};
+}
+HWY_INLINE Pack33 operator*(Pack s, const Pack33& m) {
+  return {s * m.a, s * m.b, s * m.c};
+}
+HWY_INLINE Pack3 operator*(const Pack33& m, const Pack3& v) {
+  return MulAdd(v.z, m.c, MulAdd(v.y, m.b, v.x * m.a));
+}
+HWY_INLINE Pack33 operator*(const Pack33& m, const Pack33& n) {
+  return {m * n.a, m * n.b, m * n.c};
+}
+// mᵀ v
+HWY_INLINE Pack3 TransposedTimes(const Pack33& m, const Pack3& v) {
+  return {Dot(m.a, v), Dot(m.b, v), Dot(m.c, v)};
+}
+HWY_INLINE Pack33 TransposedTimes(const Pack33& m, const Pack33& n) {
+  return {TransposedTimes(m, n.a), TransposedTimes(m, n.b),
+          TransposedTimes(m, n.c)};
+}
+HWY_INLINE Pack33 Load33(const Lanes* entries, int lane) {
+  return {Load3(entries, lane), Load3(entries + 3, lane),
+          Load3(entries + 6, lane)};
+}
+// The vectors dual to the columns: m⁻ᵀ.
+HWY_INLINE Pack33 Dual(const Pack33& m) {
+  const Pack3 bc = Cross(m.b, m.c);
+  const Pack inverse = Broadcast(1.0) / Dot(m.a, bc);
+  return {inverse * bc, inverse * Cross(m.c, m.a), inverse * Cross(m.a, m.b)};
+}
+
+struct PackSum {
+  Pack sum;
+  Pack error;
+};
+HWY_INLINE PackSum TwoSum(Pack a, Pack b) {  // (SUM-1)
+  const Pack sum = a + b;
+  const Pack b_part = sum - a;
+  const Pack a_part = sum - b_part;
+  return {sum, (a - a_part) + (b - b_part)};
+}
+// (SUM-1) if |a| ≥ |b|; else the error is wrong by at most a rounding of b.
+HWY_INLINE PackSum FastTwoSum(Pack a, Pack b) {
+  const Pack sum = a + b;
+  return {sum, b - (sum - a)};
+}
+HWY_INLINE PackSum FastTwoDifference(Pack a, Pack b) {
+  const Pack difference = a - b;
+  return {difference, (a - difference) - b};
+}
+HWY_INLINE PackSum TwoProduct(Pack a, Pack b) {  // (SUM-3)
+  const Pack product = a * b;
+#if HWY_NATIVE_FMA
+  return {product, MulSub(a, b, product)};
+#else
+  const Pack split = Broadcast(134217729.0);  // 2²⁷ + 1.
+  const Pack a_scaled = split * a;
+  const Pack a_high = a_scaled - (a_scaled - a);
+  const Pack a_low = a - a_high;
+  const Pack b_scaled = split * b;
+  const Pack b_high = b_scaled - (b_scaled - b);
+  const Pack b_low = b - b_high;
+  return {product,
+          ((a_high * b_high - product) + a_high * b_low + a_low * b_high) +
+              a_low * b_low};
+#endif
+}
+
+// What a step writes: only lanes of `done`, or all of them.
+template <bool kAll>
+class Writer {
+ public:
+  explicit Writer(Flag done) : done_(done) {}
+
+  HWY_INLINE void Write(Pack x, double* lanes) const {
+    if constexpr (kAll) {
+      Store(x, lanes);
+    } else {
+      Store(Choose(done_, x, Load(lanes)), lanes);
+    }
+  }
+
+  // (SUM-2); the lanes' values and compensations are at these addresses. Where
+  // a value is below its increment, near zero, what is lost is a rounding of
+  // the increment, and so no more than that has already.
+  HWY_INLINE void Add(Pack increment, double* value,
+                      double* compensation) const {
+    const PackSum result =
+        FastTwoSum(Load(value), increment + Load(compensation));
+    Write(result.sum, value);
+    Write(result.error, compensation);
+  }
+
+  // The same for an increment with a low-order part.
+  HWY_INLINE void Add(const PackSum& increment, double* value,
+                      double* compensation) const {
+    const PackSum first = FastTwoSum(Load(value), increment.sum);
+    const PackSum second = FastTwoSum(
+        first.sum, first.error + (Load(compensation) + increment.error));
+    Write(second.sum, value);
+    Write(second.error, compensation);
+  }
+
+  HWY_INLINE void Add3(const Pack3& increment, Lanes* value,
+                       Lanes* compensation, int lane) const {
+    Add(increment.x, value[0] + lane, compensation[0] + lane);
+    Add(increment.y, value[1] + lane, compensation[1] + lane);
+    Add(increment.z, value[2] + lane, compensation[2] + lane);
+  }
+
+  HWY_INLINE void Add33(const Pack33& increment, int lane,
+                        CompensatedLanes<9>* to) const {
+    Add3(increment.a, to->value, to->compensation, lane);
+    Add3(increment.b, to->value + 3, to->compensation + 3, lane);
+    Add3(increment.c, to->value + 6, to->compensation + 6, lane);
+  }
+
+ private:
+  Flag done_;
+};
+
+// Δt v̄ of a constant velocity, the same in every step.
+HWY_INLINE void PrepareCentre(const BatchStep& step, int lane,
+                              CentreLanes* centre) {
+  for (size_t i = 0; i < 3; ++i) {
+    const Pack mean = Load(centre->velocity.value[i] + lane) +
+                      Load(centre->velocity.compensation[i] + lane);
+    const PackSum motion = TwoProduct(Broadcast(step.time_step), mean);
+    Store(motion.sum, centre->motion[i] + lane);
+    Store(motion.error, centre->motion_error[i] + lane);
+  }
+}
+
+// The centre of mass under constant gravity, in closed form.
+template <bool kAll>
+HWY_INLINE void AdvanceCentre(const BatchStep& step, const Writer<kAll>& writer,
+                              int lane, CentreLanes* centre) {
+#pragma GCC unroll 3
+  for (size_t i = 0; i < 3; ++i) {
+    PackSum motion = {Load(centre->motion[i] + lane),
+                      Load(centre->motion_error[i] + lane)};
+    if (step.has_gravity) {
+      double* const v = centre->velocity.value[i] + lane;
+      double* const vc = centre->velocity.compensation[i] + lane;
+      const Pack change = Broadcast(step.velocity_increment[i]);
+      motion = TwoProduct(Broadcast(step.time_step),
+                          Load(v) + MulAdd(Broadcast(0.5), change, Load(vc)));
+      writer.Add(change, v, vc);
+    }
+    double* const x = centre->position.value[i] + lane;
+    double* const xc = centre->position.compensation[i] + lane;
+    const PackSum first = TwoSum(Load(x), motion.sum);
+    const PackSum second =
+        FastTwoSum(first.sum, first.error + (Load(xc) + motion.error));
+    writer.Write(second.sum, x);
+    writer.Write(second.error, xc);
+  }
+}
+
+// Takes the accelerations of this step and predicts the next (EXTRA-1).
+template <bool kAll, size_t kVectors>
+HWY_INLINE void Predict(const Pack3 (&acceleration)[kVectors],
+                        const Writer<kAll>& writer, int lane,
+                        ExtrapolationLanes<3 * kVectors>* kept) {
+  // Sums of squares.
+  Pack error0 = Broadcast(0.0);
+  Pack error1 = error0;
+  Pack error2 = error0;
+  Pack error3 = error0;
+#pragma GCC unroll 9
+  for (size_t i = 0; i < 3 * kVectors; ++i) {
+    const Pack3& vector = acceleration[i / 3];
+    const Pack value = i % 3 == 0 ? vector.x : i % 3 == 1 ? vector.y : vector.z;
+    double* const kept0 = kept->difference[0][i] + lane;
+    double* const kept1 = kept->difference[1][i] + lane;
+    double* const kept2 = kept->difference[2][i] + lane;
+    double* const kept3 = kept->difference[3][i] + lane;
+    const Pack d1 = value - Load(kept0);
+    const Pack d2 = d1 - Load(kept1);
+    const Pack d3 = d2 - Load(kept2);
+    const Pack d4 = d3 - Load(kept3);
+    writer.Write(value, kept0);
+    writer.Write(d1, kept1);
+    writer.Write(d2, kept2);
+    writer.Write(d3, kept3);
+    error0 = MulAdd(d1, d1, error0);
+    error1 = MulAdd(d2, d2, error1);
+    error2 = MulAdd(d3, d3, error2);
+    error3 = MulAdd(d4, d4, error3);
+  }
+  const Pack one = Broadcast(1.0);
+  const Pack best1 = Smaller(error0, error1);
+  const Flag third = error3 < Smaller(best1, error2);
+  const Flag second = Or(third, error2 < best1);
+  const Flag first = Or(second, error1 < error0);
+  const Pack use3 = OrZero(third, one);
+  const Pack use2 = OrZero(second, one);
+  const Pack use1 = OrZero(first, one);
+#pragma GCC unroll 9
+  for (size_t i = 0; i < 3 * kVectors; ++i) {
+    const Pack d0 = Load(kept->difference[0][i] + lane);
+    const Pack d1 = Load(kept->difference[1][i] + lane);
+    const Pack d2 = Load(kept->difference[2][i] + lane);
+    const Pack d3 = Load(kept->difference[3][i] + lane);
+    writer.Write(MulAdd(use1, d1, MulAdd(use2, d2, MulAdd(use3, d3, d0))),
+                 kept->next[i] + lane);
+  }
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace emmy
+HWY_AFTER_NAMESPACE();
+
+#endif  // EMMY_INTEGRATE_LANE_PACK_INL_H_
