@@ -26,21 +26,6 @@ LineElement LineElement::Spring(double natural_length, double stiffness) {
   return {Kind::kSpring, natural_length, stiffness};
 }
 
-LineElement::Response LineElement::Respond(double value, double compensation,
-                                           double ds) const {
-  switch (kind_) {
-    case Kind::kCable:
-      return RespondAsCable(value, compensation, ds);
-    case Kind::kSpring:
-      return RespondAsSpring(value, compensation, ds);
-    case Kind::kTruss:
-      break;
-  }
-  const double increment = inverse_square_ * ds;
-  const double mean = value + (compensation + 0.5 * increment);
-  return {increment, factor_ * mean, derivative_};
-}
-
 LineElement::Response LineElement::RespondAsCable(double value,
                                                   double compensation,
                                                   double ds) const {

@@ -45,8 +45,15 @@ class EMMY_EXPORT LineElement {
     double derivative;      // dt/dΔs [N/m³], for the tangent only.
   };
 
-  // Response to Δs from the value y₀ and its compensation.
-  Response Respond(double value, double compensation, double ds) const;
+  // Response to Δs from the value y₀ and its compensation. Here, since a net
+  // asks this of every truss in every iteration.
+  Response Respond(double value, double compensation, double ds) const {
+    if (kind_ == Kind::kCable) return RespondAsCable(value, compensation, ds);
+    if (kind_ == Kind::kSpring) return RespondAsSpring(value, compensation, ds);
+    const double increment = inverse_square_ * ds;
+    const double mean = value + (compensation + 0.5 * increment);
+    return {increment, factor_ * mean, derivative_};
+  }
 
   // y for the distance `d` between the ends, in extended precision.
   DoubleDouble Value(const DoubleDouble3& d) const;

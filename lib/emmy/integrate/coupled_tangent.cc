@@ -67,6 +67,13 @@ CoupledTangent::CoupledTangent(const Structure& structure, double time_step,
   const Eigen::Index size = 3 * matrix_.num_blocks();
   right_side_.setZero(size);
   solution_.setZero(size);
+  for (const Structure::Mass& mass : structure.masses) {
+    if (mass.row != mass.column) continue;
+    own_masses_.push_back(
+        {mass.row, mass.mass,
+         static_cast<bool>(
+             structure.translates[static_cast<size_t>(mass.row)])});
+  }
   // Small against G K⁻¹ Gᵀ ~ 1/mass, large against its rounding.
   double largest_mass = 0.0;
   for (const Structure::Mass& mass : structure.masses) {
@@ -219,36 +226,31 @@ void CoupledTangent::SetRotation(int vector, const Matrix3d& rotation) {
 }
 
 // The mass-weighted rotation that best takes the positions of the
-// factorisation to those of now (Kabsch, Acta Cryst. A32 (1976)).
+// factorisation to those of now (Kabsch, Acta Cryst. A32 (1976)). Only frames
+// depend on it: masses between vectors are left out.
 void CoupledTangent::FollowStructure(const Matrix3Xd& mean_positions) {
   double mass = 0.0;
   Vector3d centre = Vector3d::Zero();
   Vector3d old_centre = Vector3d::Zero();
-  for (int v = 0; v < structure_->num_vectors(); ++v) {
-    const double weight =
-        structure_->vectors[static_cast<size_t>(v)].first_moment;
-    mass += weight;
-    centre += weight * mean_positions.col(v);
-    old_centre += weight * positions_.col(v);
-  }
   Matrix3d moment = Matrix3d::Zero();
-  for (const Structure::Mass& entry : structure_->masses) {
-    moment += entry.mass * mean_positions.col(entry.row) *
-              positions_.col(entry.column).transpose();
-    if (entry.row != entry.column) {
-      moment += entry.mass * mean_positions.col(entry.column) *
-                positions_.col(entry.row).transpose();
-    }
+  for (const auto& [vector, weight, translates] : own_masses_) {
+    const Vector3d now = mean_positions.col(vector);
+    const Vector3d old = positions_.col(vector);
+    moment += weight * now * old.transpose();
+    if (!translates) continue;
+    mass += weight;
+    centre += weight * now;
+    old_centre += weight * old;
   }
-  if (mass > 0.0) moment -= centre * old_centre.transpose() / mass;
+  // A single point, or several in one place, have no attitude.
+  double spread = moment.norm();
+  if (mass > 0.0) {
+    const Matrix3d common = centre * old_centre.transpose() / mass;
+    moment -= common;
+    spread += common.norm();
+  }
   const Eigen::JacobiSVD<Matrix3d> svd(
       moment, Eigen::ComputeFullU | Eigen::ComputeFullV);
-  // A single point, or several in one place, have no attitude.
-  double spread = 0.0;
-  for (const Structure::Mass& entry : structure_->masses) {
-    spread += std::abs(entry.mass) * mean_positions.col(entry.row).norm() *
-              positions_.col(entry.column).norm();
-  }
   if (!(svd.singularValues()(0) > 1e-10 * spread)) return;
   Vector3d signs = Vector3d::Ones();
   if ((svd.matrixU() * svd.matrixV().transpose()).determinant() < 0.0) {

@@ -88,6 +88,12 @@ class CoupledTangent {
   std::vector<std::array<SymmetricBlockMatrix::Slot, 6>> body_slots_;
   std::vector<SymmetricBlockMatrix::Slot> line_slots_;
   std::vector<SymmetricBlockMatrix::Slot> constraint_slots_;
+  struct OwnMass {
+    int vector;
+    double mass;  // On the diagonal.
+    bool translates;
+  };
+  std::vector<OwnMass> own_masses_;
   Matrix3Xd positions_;                   // q̄ at the factorisation.
   Matrix3d turn_ = Matrix3d::Identity();  // Of the whole since then.
   // Rotations of the vectors' frames, and for the gradient vectors of bodies
