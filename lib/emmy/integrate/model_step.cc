@@ -91,12 +91,18 @@ ModelStep::ModelStep(
       free_ancf_.push_back(
           {body, AncfBodyStep(*body->ancf(), time_step, newton, tangent),
            AncfBodyIncrement{}});
+      continue;
+    }
+    const CoupledStepOptions coupled = {
+        .newton = newton,
+        .method = options.factor_method,
+        .always_factorize = options.always_full_newton};
+    std::unique_ptr<JointStep> joined =
+        JointStep::Create(structure, time_step, coupled, options.num_threads);
+    if (joined != nullptr) {
+      joined_.push_back(std::move(joined));
     } else {
-      coupled_.emplace_back(
-          structure, time_step,
-          CoupledStepOptions{.newton = newton,
-                             .method = options.factor_method,
-                             .always_factorize = options.always_full_newton});
+      coupled_.emplace_back(structure, time_step, coupled);
     }
   }
   for (size_t i = 0; i < model.bodies().size(); ++i) {
@@ -114,6 +120,7 @@ ModelStep::ModelStep(
 
 int ModelStep::num_factorizations() const {
   int sum = 0;
+  for (const auto& step : joined_) sum += step->num_factorizations();
   for (const CoupledStep& step : coupled_) sum += step.num_factorizations();
   return sum;
 }
@@ -161,6 +168,13 @@ bool ModelStep::Solve(const State& state, StepReport* report) {
       return false;
     }
   }
+  for (const std::unique_ptr<JointStep>& part : joined_) {
+    const BodyStepResult result = part->Solve(state);
+    const bool ok = result.termination == Termination::kConverged;
+    if (!Accept(result, state, ok ? none : part->WorstPart(), report)) {
+      return false;
+    }
+  }
   for (CoupledStep& part : coupled_) {
     const BodyStepResult result = part.Solve(state);
     const bool ok = result.termination == Termination::kConverged;
@@ -198,7 +212,7 @@ void ModelStep::CommitCentre(const ModelBody& body, State& state) const {
   state.velocity.Add(w, velocity_increment);
 }
 
-void ModelStep::Commit(State& state) const {
+void ModelStep::Commit(State& state) {
   const double dt = time_step_;
   for (const FreeAncf& part : free_ancf_) {
     const ModelBody& body = *part.body;
@@ -223,6 +237,7 @@ void ModelStep::Commit(State& state) const {
     Predict(body.velocity_offset + 3, part.increment.angular_velocity / dt,
             state);
   }
+  for (const auto& part : joined_) part->Commit(state);
   for (const CoupledStep& part : coupled_) part.Commit(state);
   if (conventional_structure_.has_value()) {
     conventional_structure_->Commit(state);

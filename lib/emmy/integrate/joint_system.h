@@ -1,0 +1,59 @@
+// The linear algebra of bodies joined at shared points, as JointStep sees it.
+
+#ifndef EMMY_INTEGRATE_JOINT_SYSTEM_H_
+#define EMMY_INTEGRATE_JOINT_SYSTEM_H_
+
+#include <cstddef>
+
+#include "emmy/base/types.h"
+#include "emmy/integrate/joint_chain_kernel.h"
+#include "emmy/model/state.h"
+
+namespace emmy {
+
+// What the laws forbid to remain of a residual, and the scales of rounding.
+struct JointSums {
+  Vector3d force = Vector3d::Zero();
+  Vector3d moment = Vector3d::Zero();
+  double work = 0.0;
+  // Sums of squares of the terms' sizes, and largest rate.
+  double force_size = 0.0;
+  double moment_size = 0.0;
+  double work_size = 0.0;
+  double rate = 0.0;
+  // Energy of the start, and work of the weight in this step [J].
+  double energy = 0.0;
+  double load_work = 0.0;
+};
+
+struct JointCorrection {
+  double largest = 0.0;  // Of |δw|.
+  bool is_finite = false;
+};
+
+// Sums over the pieces of `groups` groups, in their order.
+void AddPieceSums(ForwardWork work, const double* pieces, size_t groups,
+                  JointSums* sums);
+JointCorrection PieceCorrection(const double* pieces, size_t groups);
+
+class JointSystem {
+ public:
+  virtual ~JointSystem() = default;
+
+  // Takes the start of a step, and the start values of its iteration.
+  virtual void Load(const State& state) = 0;
+
+  // Residual of the iterate, and the bodies' part of the correction. What
+  // `work` leaves out of the sums is as it was before.
+  virtual const JointSums& Evaluate(ForwardWork work) = 0;
+
+  // Solves (EM-14) and corrects the iterate.
+  virtual JointCorrection Correct() = 0;
+
+  // Advances `state` by the iterate, except its time.
+  virtual void Commit(State& state) = 0;
+};
+
+}  // namespace emmy
+
+#endif  // EMMY_INTEGRATE_JOINT_SYSTEM_H_
