@@ -33,8 +33,7 @@ Matrix3d PackSymmetric(const double* pack, int block, size_t lane) {
   return m;
 }
 
-void SetPackSymmetric(const Matrix3d& m, double* pack, int block,
-                      size_t lane) {
+void SetPackSymmetric(const Matrix3d& m, double* pack, int block, size_t lane) {
   for (int i = 0; i < 3; ++i) {
     for (int j = 0; j <= i; ++j) PackEntry(pack, block++, lane) = m(i, j);
   }
@@ -75,6 +74,10 @@ BodyPacks::BodyPacks(const Structure& structure, double time_step, size_t packs,
 
 void BodyPacks::NeedLoads() {
   if (!loads_) loads_ = AllocatePacks(packs_, kNumLoads);
+}
+
+void BodyPacks::ClearLoads() {
+  std::fill_n(loads_.get(), packs_ * kNumLoads * kLanes, 0.0);
 }
 
 void BodyPacks::Load(const State& state, size_t first, size_t last) {
@@ -126,8 +129,8 @@ Matrix3d BodyPacks::Increment(size_t slot) {
   return time_step_ *
          (PackMatrix(begin, B::kVelocity + 3, lane) +
           (PackMatrix(begin, B::kVelocityCompensation + 3, lane) +
-           0.5 * PackMatrix(iterate(pack),
-                            BodyIterateBlock::kRateIncrement + 3, lane)));
+           0.5 * PackMatrix(iterate(pack), BodyIterateBlock::kRateIncrement + 3,
+                            lane)));
 }
 
 // The dual vectors of ē.
@@ -157,9 +160,9 @@ void BodyPacks::SetLoads() {
     double* const here = loads(slot / kLanes);
     for (int i = 0; i < 3; ++i) {
       const Vector3d load = PackVector(here, 3 + 3 * i, slot % kLanes);
-      SetPackVector(load + (0.5 * time_step_) *
-                               torque.torque.cross(duals.col(i)),
-                    here, 3 + 3 * i, slot % kLanes);
+      SetPackVector(
+          load + (0.5 * time_step_) * torque.torque.cross(duals.col(i)), here,
+          3 + 3 * i, slot % kLanes);
     }
   }
 }
@@ -171,11 +174,10 @@ void BodyPacks::AddLoadWork(State& state) {
       const auto vector = static_cast<size_t>(term.vector);
       const size_t slot = slots_[vector / 4];
       work += term.weight *
-              force.force.dot(PackVector(
-                  scratch(slot / kLanes),
-                  BodyScratchBlock::kPositionIncrement +
-                      3 * static_cast<int>(vector % 4),
-                  slot % kLanes));
+              force.force.dot(PackVector(scratch(slot / kLanes),
+                                         BodyScratchBlock::kPositionIncrement +
+                                             3 * static_cast<int>(vector % 4),
+                                         slot % kLanes));
     }
   }
   for (const Structure::Torque& torque : structure_->torques) {
@@ -183,8 +185,7 @@ void BodyPacks::AddLoadWork(State& state) {
     const Matrix3d increment = Increment(slot);
     const Matrix3d duals = Duals(slot, increment);
     for (int i = 0; i < 3; ++i) {
-      work +=
-          0.5 * torque.torque.cross(duals.col(i)).dot(increment.col(i));
+      work += 0.5 * torque.torque.cross(duals.col(i)).dot(increment.col(i));
     }
   }
   state.load_work.Add(work);

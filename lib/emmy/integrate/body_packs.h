@@ -68,13 +68,15 @@ class BodyPacks {
   }
   static constexpr int kNumLoads = 12;
 
-  // Impulses besides those of the structure's loads: makes room for them.
+  // Makes room for impulses besides those of the structure's loads; zero.
   void NeedLoads();
+  void ClearLoads();
 
   // The start and the start value of Δw of the packs [first, last).
   void Load(const State& state, size_t first, size_t last);
 
-  // Δt F of all loads at the iterate; replaces what is in loads().
+  // Δt F of all loads at the iterate in place of what is in loads(); nothing
+  // if there are none.
   void SetLoads();
 
   // After ChainFinish: advances the packs [first, last), not the predictions.

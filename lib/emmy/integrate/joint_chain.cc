@@ -26,8 +26,7 @@ JointChain::JointChain(const Structure& structure,
       num_threads_(num_threads),
       shift_(JointShift(structure)),
       groups_((row.bodies.size() + kPerGroup - 1) / kPerGroup),
-      length_((row.bodies.size() + groups_ * kLanes - 1) /
-              (groups_ * kLanes)),
+      length_((row.bodies.size() + groups_ * kLanes - 1) / (groups_ * kLanes)),
       multipliers_(groups_ * length_ * kLanes, -1),
       factor_(AllocatePacks(groups_ * length_, JointFactorBlock::kSize)),
       pieces_(AllocatePacks(groups_, PieceBlock::kSize)),
@@ -41,8 +40,8 @@ JointChain::JointChain(const Structure& structure,
       multipliers_[Slot(i)] = MultiplierOffset(structure, row.joints[i]);
     }
   }
-  packs_ = std::make_unique<BodyPacks>(structure, time_step,
-                                       groups_ * length_, std::move(slots));
+  packs_ = std::make_unique<BodyPacks>(structure, time_step, groups_ * length_,
+                                       std::move(slots));
   MakeConstants(joints, row);
 }
 
@@ -70,10 +69,9 @@ void JointChain::MakeConstants(const std::vector<BodyJoint>& joints,
       const int body = inside ? row.bodies[i] : kNone;
       const int right = inside ? row.joints[i] : kNone;
       const int left = inside && i > 0 ? row.joints[i - 1] : kNone;
-      SetBodyConstants(
-          *structure_, body, time_step_,
-          JointWeights(joints, right, body), JointWeights(joints, left, body),
-          block.data(), lane);
+      SetBodyConstants(*structure_, body, time_step_,
+                       JointWeights(joints, right, body),
+                       JointWeights(joints, left, body), block.data(), lane);
       if (right == kNone) {
         // Any matrix will do, the right side is zero.
         SetPackSymmetric(shift_ / kJointShift * Matrix3d::Identity(),
@@ -144,6 +142,7 @@ const JointSums& JointChain::Evaluate(ForwardWork work) {
 
 void JointChain::FactorizeSeparators() {
   using P = PieceBlock;
+  ++num_factorizations_;
   Matrix3d taken = Matrix3d::Zero();
   for (size_t i = 0; i < separators_.size(); ++i) {
     Separator& separator = separators_[i];
@@ -195,7 +194,7 @@ void JointChain::SolveSeparators() {
       const size_t lane = (i + 1) % kLanes;
       SetPackVector(step, next, P::kLeftStep, lane);
       SetPackVector(PackVector(next, P::kLeftImpulse, lane) - step, next,
-                P::kLeftImpulse, lane);
+                    P::kLeftImpulse, lane);
     }
   }
 }
@@ -217,8 +216,7 @@ void JointChain::Commit(State& state) {
     if (multipliers_[slot] < 0) continue;
     state.multiplier.Add(multipliers_[slot],
                          PackVector(packs_->iterate(slot / kLanes),
-                                    BodyIterateBlock::kImpulse,
-                                    slot % kLanes) /
+                                    BodyIterateBlock::kImpulse, slot % kLanes) /
                              time_step_,
                          &multiplier_errors);
   }

@@ -37,6 +37,7 @@ class JointChain : public JointSystem {
   const JointSums& Evaluate(ForwardWork work) override;
   JointCorrection Correct() override;
   void Commit(State& state) override;
+  int num_factorizations() const override { return num_factorizations_; }
 
  private:
   // A joint between pieces: its block of the factor L D Lᵀ and its solution.
@@ -66,6 +67,7 @@ class JointChain : public JointSystem {
   std::vector<const double*> constants_of_pack_;
   std::vector<Separator> separators_;
   JointSums sums_;
+  int num_factorizations_ = 0;
 };
 
 }  // namespace emmy

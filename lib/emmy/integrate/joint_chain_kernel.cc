@@ -83,8 +83,7 @@ HWY_INLINE V Dot(const V3& a, const V3& b) {
   return a.v[0] * b.v[0] + a.v[1] * b.v[1] + a.v[2] * b.v[2];
 }
 HWY_INLINE V3 Cross(const V3& a, const V3& b) {
-  return {{a.v[1] * b.v[2] - a.v[2] * b.v[1],
-           a.v[2] * b.v[0] - a.v[0] * b.v[2],
+  return {{a.v[1] * b.v[2] - a.v[2] * b.v[1], a.v[2] * b.v[0] - a.v[0] * b.v[2],
            a.v[0] * b.v[1] - a.v[1] * b.v[0]}};
 }
 HWY_INLINE V MaxAbs(const V3& a) {
@@ -103,8 +102,8 @@ HWY_INLINE V3 Times(const Symmetric& s, const V3& a) {
            s.v[3] * a.v[0] + s.v[4] * a.v[1] + s.v[5] * a.v[2]}};
 }
 HWY_INLINE M3 Times(const Symmetric& s, const M3& m) {
-  return {{Times(s, m.column[0]), Times(s, m.column[1]),
-           Times(s, m.column[2])}};
+  return {
+      {Times(s, m.column[0]), Times(s, m.column[1]), Times(s, m.column[2])}};
 }
 HWY_INLINE Symmetric Plus(const Symmetric& a, const Symmetric& b) {
   Symmetric s;
@@ -132,8 +131,8 @@ HWY_INLINE M3 Transpose(const M3& m) {
 // A Bᵀ as A times the columns of Bᵀ.
 HWY_INLINE M3 TimesTransposed(const M3& a, const M3& b) {
   const M3 t = Transpose(b);
-  return {{Times(a, t.column[0]), Times(a, t.column[1]),
-           Times(a, t.column[2])}};
+  return {
+      {Times(a, t.column[0]), Times(a, t.column[1]), Times(a, t.column[2])}};
 }
 // Q S Qᵀ.
 HWY_INLINE Symmetric Turned(const M3& q, const Symmetric& s) {
@@ -163,8 +162,8 @@ HWY_INLINE M3 SolveTangent(const double* constants, const M3& y) {
     const int m = kFirst[i];
     const int n = kSecond[i];
     const V inverse = Get(constants, C::kInverse + 3 + i);
-    const V shear = Get(constants, C::kShear + i) *
-                    (y.column[m].v[n] - y.column[n].v[m]);
+    const V shear =
+        Get(constants, C::kShear + i) * (y.column[m].v[n] - y.column[n].v[m]);
     x.column[m].v[n] =
         inverse * (Get(constants, C::kMoment + n) * y.column[m].v[n] + shear);
     x.column[n].v[m] =
@@ -175,9 +174,9 @@ HWY_INLINE M3 SolveTangent(const double* constants, const M3& y) {
 
 // (EM-1), for x̄, e₁, e₂, e₃.
 struct Motion {
-  V3 rate[4];      // w̄
+  V3 rate[4];       // w̄
   V3 increment[4];  // Δq
-  V3 mean[4];      // q̄
+  V3 mean[4];       // q̄
 };
 
 HWY_INLINE Motion Move(double time_step, const double* start, const V3* dw) {
@@ -192,8 +191,7 @@ HWY_INLINE Motion Move(double time_step, const double* start, const V3* dw) {
     m.increment[a] = Times(dt, m.rate[a]);
     V3 rest = Times(half, m.increment[a]);
     if (a > 0) {
-      rest =
-          Plus(Get3(start, B::kGradientCompensation + 3 * (a - 1)), rest);
+      rest = Plus(Get3(start, B::kGradientCompensation + 3 * (a - 1)), rest);
     }
     m.mean[a] = Plus(Get3(start, B::kPosition + 3 * a), rest);
   }
@@ -226,8 +224,8 @@ struct Sums {
 
 template <ForwardWork kWork>
 HWY_INLINE void AddSums(const double* constants, const double* start,
-                        const Motion& m, const V3* residual,
-                        const V* magnitude, V3 weight, Sums* sums) {
+                        const Motion& m, const V3* residual, const V* magnitude,
+                        const V3* load, Sums* sums) {
   using C = BodyConstants;
   using B = BodyStartBlock;
   sums->force = Plus(sums->force, residual[0]);
@@ -242,8 +240,7 @@ HWY_INLINE void AddSums(const double* constants, const double* start,
       sums->moment_size = sums->moment_size + size * Dot(m.mean[a], m.mean[a]);
       sums->work_size = sums->work_size + size * Dot(m.rate[a], m.rate[a]);
       const V3 w0 = Get3(start, B::kVelocity + 3 * a);
-      sums->rate =
-          hn::Max(sums->rate, hn::Max(MaxAbs(w0), MaxAbs(m.rate[a])));
+      sums->rate = hn::Max(sums->rate, hn::Max(MaxAbs(w0), MaxAbs(m.rate[a])));
     }
   }
   if constexpr (kWork == ForwardWork::kFactorize) {
@@ -259,14 +256,16 @@ HWY_INLINE void AddSums(const double* constants, const double* start,
       energy = energy + Get(constants, C::kStiffness + k) * (strain * strain);
     }
     sums->energy = sums->energy + half * energy;
-    for (int i = 0; i < 3; ++i) {
-      sums->load_work =
-          sums->load_work + hn::Abs(weight.v[i]) * hn::Abs(m.rate[0].v[i]);
+    for (int a = 0; a < 4; ++a) {
+      for (int i = 0; i < 3; ++i) {
+        sums->load_work = sums->load_work +
+                          hn::Abs(load[a].v[i]) * hn::Abs(m.increment[a].v[i]);
+      }
     }
   }
 }
 
-template <ForwardWork kWork>
+template <ForwardWork kWork, bool kRow>
 HWY_INLINE void Forward(const ChainGroup& g, int lane) {
   using C = BodyConstants;
   using B = BodyStartBlock;
@@ -278,6 +277,7 @@ HWY_INLINE void Forward(const ChainGroup& g, int lane) {
   const V half = hn::Set(tag, 0.5);
   const V quarter = hn::Set(tag, 0.25);
   const V two = hn::Set(tag, 2.0);
+  const V per_time = hn::Set(tag, 1.0 / g.time_step);
   const V shift = hn::Set(tag, g.shift);
   const V zero = hn::Zero(tag);
   double* const piece = g.piece + lane;
@@ -327,39 +327,44 @@ HWY_INLINE void Forward(const ChainGroup& g, int lane) {
     if constexpr (kSizes) {
       for (int a = 0; a < 4; ++a) magnitude[a] = MaxAbs(residual[a]);
     }
-    // Weight and loads.
+    // Weight and loads: impulses, and per time for their work.
+    V3 load[4] = {Zero3(), Zero3(), Zero3(), Zero3()};
     V3 weight;
     for (int i = 0; i < 3; ++i) {
-      weight.v[i] =
-          dt * (Get(constants, C::kMass) * hn::Set(tag, g.gravity[i]));
+      load[0].v[i] = Get(constants, C::kMass) * hn::Set(tag, g.gravity[i]);
+      weight.v[i] = dt * load[0].v[i];
     }
     residual[0] = Minus(residual[0], weight);
     if (g.loads != nullptr) {
       const double* const loads =
           g.loads + static_cast<ptrdiff_t>(t) * 12 * kPackLanes + lane;
       for (int a = 0; a < 4; ++a) {
-        residual[a] = Minus(residual[a], Get3(loads, 3 * a));
+        const V3 impulse_a = Get3(loads, 3 * a);
+        residual[a] = Minus(residual[a], impulse_a);
+        if constexpr (kSizes) {
+          magnitude[a] = magnitude[a] + MaxAbs(impulse_a);
+          load[a] = Plus(load[a], Times(per_time, impulse_a));
+        }
       }
     }
     // (ANCF-6) with mean vectors and mean strain.
     V stress[6];
     StrainIncrement(m, stress);
     for (int k = 0; k < 6; ++k) {
-      const V mean = Get(start, B::kStrain + k) +
-                     (Get(start, B::kStrainCompensation + k) +
-                      half * stress[k]);
+      const V mean =
+          Get(start, B::kStrain + k) +
+          (Get(start, B::kStrainCompensation + k) + half * stress[k]);
       stress[k] = Get(constants, C::kStiffness + k) * mean;
     }
     const V3& e1 = m.mean[1];
     const V3& e2 = m.mean[2];
     const V3& e3 = m.mean[3];
-    const V3 force[3] = {
-        Plus(Plus(Times(stress[0], e1), Times(stress[3], e2)),
-             Times(stress[5], e3)),
-        Plus(Plus(Times(stress[1], e2), Times(stress[3], e1)),
-             Times(stress[4], e3)),
-        Plus(Plus(Times(stress[2], e3), Times(stress[4], e2)),
-             Times(stress[5], e1))};
+    const V3 force[3] = {Plus(Plus(Times(stress[0], e1), Times(stress[3], e2)),
+                              Times(stress[5], e3)),
+                         Plus(Plus(Times(stress[1], e2), Times(stress[3], e1)),
+                              Times(stress[4], e3)),
+                         Plus(Plus(Times(stress[2], e3), Times(stress[4], e2)),
+                              Times(stress[5], e1))};
     for (int i = 0; i < 3; ++i) {
       const V3 internal = Times(dt, force[i]);
       residual[1 + i] = Plus(residual[1 + i], internal);
@@ -370,13 +375,15 @@ HWY_INLINE void Forward(const ChainGroup& g, int lane) {
     // Joints.
     V left[4];
     V right[4];
-    for (int a = 0; a < 4; ++a) {
-      left[a] = Get(constants, C::kLeftWeight + a);
-      right[a] = Get(constants, C::kRightWeight + a);
-      residual[a] = Plus(residual[a], Plus(Times(left[a], left_impulse),
-                                           Times(right[a], impulse)));
+    if constexpr (kRow) {
+      for (int a = 0; a < 4; ++a) {
+        left[a] = Get(constants, C::kLeftWeight + a);
+        right[a] = Get(constants, C::kRightWeight + a);
+        residual[a] = Plus(residual[a], Plus(Times(left[a], left_impulse),
+                                             Times(right[a], impulse)));
+      }
     }
-    if constexpr (kSizes) {
+    if constexpr (kRow && kSizes) {
       const V left_size = MaxAbs(left_impulse);
       const V right_size = MaxAbs(impulse);
       for (int a = 0; a < 4; ++a) {
@@ -384,7 +391,7 @@ HWY_INLINE void Forward(const ChainGroup& g, int lane) {
                                        hn::Abs(right[a]) * right_size);
       }
     }
-    AddSums<kWork>(constants, start, m, residual, magnitude, weight, &sums);
+    AddSums<kWork>(constants, start, m, residual, magnitude, load, &sums);
     left_impulse = impulse;
 
     // u: along ē, then along the vectors of the end, see (EM-6).
@@ -408,6 +415,7 @@ HWY_INLINE void Forward(const ChainGroup& g, int lane) {
       Put3(u[a], scratch, BodyScratchBlock::kCorrection + 3 * a);
     }
     PutMatrix(frame, scratch, BodyScratchBlock::kFrame);
+    if constexpr (!kRow) continue;
 
     // What this body gives to the joints on either side.
     V3 left_side = Times(left[0], u[0]);
@@ -434,8 +442,7 @@ HWY_INLINE void Forward(const ChainGroup& g, int lane) {
       Put3(left_rate, piece, P::kLeftRate);
       Put3(left_rest, piece, P::kLeftRest);
       if constexpr (kFactorize) {
-        end_matrix =
-            Turned(frame, GetSymmetric(constants, C::kLeftCompliance));
+        end_matrix = Turned(frame, GetSymmetric(constants, C::kLeftCompliance));
         const M3 cross = GetMatrix(constants, C::kCrossCompliance);
         const M3 turned = {{Times(frame, cross.column[0]),
                             Times(frame, cross.column[1]),
@@ -446,8 +453,7 @@ HWY_INLINE void Forward(const ChainGroup& g, int lane) {
       side = right_side;
     } else {
       // The joint on the left is complete.
-      const V3 closing =
-          Plus(Plus(rate, left_rate), Plus(rest, left_rest));
+      const V3 closing = Plus(Plus(rate, left_rate), Plus(rest, left_rest));
       const V3 y = Minus(Plus(side, left_side), Times(two, closing));
       Put3(y, left_scratch, BodyScratchBlock::kJoint);
       if constexpr (kFactorize) {
@@ -491,14 +497,18 @@ HWY_INLINE void Forward(const ChainGroup& g, int lane) {
     rest = right_rest;
   }
 
-  Put3(side, piece, P::kRightSide);
-  Put3(rate, piece, P::kRightRate);
-  Put3(rest, piece, P::kRightRest);
-  Put3(Plus(Get3(piece, P::kLeftSide), end_side), piece, P::kLeftSide);
-  if constexpr (kFactorize) {
+  if constexpr (kRow) {
+    Put3(side, piece, P::kRightSide);
+    Put3(rate, piece, P::kRightRate);
+    Put3(rest, piece, P::kRightRest);
+    Put3(Plus(Get3(piece, P::kLeftSide), end_side), piece, P::kLeftSide);
+  }
+  if constexpr (kRow && kFactorize) {
     PutSymmetric(matrix, piece, P::kRightMatrix);
     PutSymmetric(end_matrix, piece, P::kLeftMatrix);
     PutMatrix(tie, piece, P::kTie);
+  }
+  if constexpr (kFactorize) {
     Put(sums.energy, piece, P::kEnergy);
     Put(sums.load_work, piece, P::kLoadWork);
   }
@@ -510,6 +520,24 @@ HWY_INLINE void Forward(const ChainGroup& g, int lane) {
     Put(sums.moment_size, piece, P::kMomentSize);
     Put(sums.work_size, piece, P::kWorkSize);
     Put(sums.rate, piece, P::kRate);
+  }
+}
+
+// δw = u − K⁻¹ P, with P for x̄ and, in the body's frame, for the eᵢ.
+HWY_INLINE void CorrectBody(const double* constants, const double* scratch,
+                            const M3& frame, const V3& centre, const M3& load,
+                            double* iterate, V* largest, V* sum) {
+  const M3 solved = SolveTangent(constants, load);
+  V3 change[4];
+  change[0] = Times(Get(constants, BodyConstants::kInverseMass), centre);
+  for (int i = 0; i < 3; ++i) change[1 + i] = Times(frame, solved.column[i]);
+  for (int a = 0; a < 4; ++a) {
+    const V3 step =
+        Minus(Get3(scratch, BodyScratchBlock::kCorrection + 3 * a), change[a]);
+    *largest = hn::Max(*largest, MaxAbs(step));
+    *sum = *sum + (step.v[0] + step.v[1] + step.v[2]);
+    const int k = BodyIterateBlock::kRateIncrement + 3 * a;
+    Put3(Minus(Get3(iterate, k), step), iterate, k);
   }
 }
 
@@ -540,7 +568,6 @@ HWY_INLINE void Backward(const ChainGroup& g, int lane) {
     }
     Put3(Minus(Get3(iterate, BodyIterateBlock::kImpulse), right_step), iterate,
          BodyIterateBlock::kImpulse);
-    // δw = u − K⁻¹ Gᵀ δ(Δt λ)
     const M3 frame = GetMatrix(scratch, BodyScratchBlock::kFrame);
     const V3 left_force = TransposeTimes(frame, left_step);
     const V3 right_force = TransposeTimes(frame, right_step);
@@ -550,27 +577,36 @@ HWY_INLINE void Backward(const ChainGroup& g, int lane) {
           Plus(Times(Get(constants, C::kLeftWeight + 1 + i), left_force),
                Times(Get(constants, C::kRightWeight + 1 + i), right_force));
     }
-    const M3 solved = SolveTangent(constants, load);
-    V3 change[4];
-    change[0] = Times(Get(constants, C::kInverseMass),
-                      Plus(Times(Get(constants, C::kLeftWeight), left_step),
-                           Times(Get(constants, C::kRightWeight), right_step)));
-    for (int i = 0; i < 3; ++i) {
-      change[1 + i] = Times(frame, solved.column[i]);
-    }
-    for (int a = 0; a < 4; ++a) {
-      const V3 step =
-          Minus(Get3(scratch, BodyScratchBlock::kCorrection + 3 * a),
-                change[a]);
-      largest = hn::Max(largest, MaxAbs(step));
-      sum = sum + (step.v[0] + step.v[1] + step.v[2]);
-      const int k = BodyIterateBlock::kRateIncrement + 3 * a;
-      Put3(Minus(Get3(iterate, k), step), iterate, k);
-    }
+    const V3 centre = Plus(Times(Get(constants, C::kLeftWeight), left_step),
+                           Times(Get(constants, C::kRightWeight), right_step));
+    CorrectBody(constants, scratch, frame, centre, load, iterate, &largest,
+                &sum);
     right_step = left_step;
   }
   Put(largest, piece, P::kCorrection);
   Put(sum, piece, P::kCorrectionSum);
+}
+
+// Bodies alone: P is where the loads were.
+HWY_INLINE void BackwardBodies(const ChainGroup& g, int lane) {
+  V largest = hn::Zero(Tag());
+  V sum = hn::Zero(Tag());
+  for (ptrdiff_t t = 0; t < g.length; ++t) {
+    const double* const loads = g.loads + t * 12 * kPackLanes + lane;
+    double* const iterate =
+        g.iterate + t * BodyIterateBlock::kSize * kPackLanes + lane;
+    const double* const scratch =
+        g.scratch + t * BodyScratchBlock::kSize * kPackLanes + lane;
+    const M3 frame = GetMatrix(scratch, BodyScratchBlock::kFrame);
+    M3 load;
+    for (int i = 0; i < 3; ++i) {
+      load.column[i] = TransposeTimes(frame, Get3(loads, 3 + 3 * i));
+    }
+    CorrectBody(g.constants[t] + lane, scratch, frame, Get3(loads, 0), load,
+                iterate, &largest, &sum);
+  }
+  Put(largest, g.piece + lane, PieceBlock::kCorrection);
+  Put(sum, g.piece + lane, PieceBlock::kCorrectionSum);
 }
 
 HWY_INLINE void Finish(const ChainGroup& g, int lane) {
@@ -596,25 +632,35 @@ HWY_INLINE void Finish(const ChainGroup& g, int lane) {
   }
 }
 
-void ForwardFactorize(const ChainGroup& group) {
+template <ForwardWork kWork>
+HWY_INLINE void ForwardLanes(const ChainGroup& group) {
   for (int lane = 0; lane < kPackLanes; lane += kStep) {
-    Forward<ForwardWork::kFactorize>(group, lane);
+    if (group.factor != nullptr) {
+      Forward<kWork, true>(group, lane);
+    } else {
+      Forward<kWork, false>(group, lane);
+    }
   }
+}
+void ForwardFactorize(const ChainGroup& group) {
+  ForwardLanes<ForwardWork::kFactorize>(group);
 }
 void ForwardSizes(const ChainGroup& group) {
-  for (int lane = 0; lane < kPackLanes; lane += kStep) {
-    Forward<ForwardWork::kSizes>(group, lane);
-  }
+  ForwardLanes<ForwardWork::kSizes>(group);
 }
 void ForwardResidual(const ChainGroup& group) {
+  ForwardLanes<ForwardWork::kResidual>(group);
+}
+void BackwardLanes(const ChainGroup& group) {
   for (int lane = 0; lane < kPackLanes; lane += kStep) {
-    Forward<ForwardWork::kResidual>(group, lane);
+    if (group.factor != nullptr) {
+      Backward(group, lane);
+    } else {
+      BackwardBodies(group, lane);
+    }
   }
 }
-void BackwardAll(const ChainGroup& group) {
-  for (int lane = 0; lane < kPackLanes; lane += kStep) Backward(group, lane);
-}
-void FinishAll(const ChainGroup& group) {
+void FinishLanes(const ChainGroup& group) {
   for (int lane = 0; lane < kPackLanes; lane += kStep) Finish(group, lane);
 }
 
@@ -628,8 +674,8 @@ namespace emmy {
 HWY_EXPORT(ForwardFactorize);
 HWY_EXPORT(ForwardSizes);
 HWY_EXPORT(ForwardResidual);
-HWY_EXPORT(BackwardAll);
-HWY_EXPORT(FinishAll);
+HWY_EXPORT(BackwardLanes);
+HWY_EXPORT(FinishLanes);
 
 void ChainForward(const ChainGroup& group, ForwardWork work) {
   switch (work) {
@@ -646,11 +692,11 @@ void ChainForward(const ChainGroup& group, ForwardWork work) {
 }
 
 void ChainBackward(const ChainGroup& group) {
-  HWY_DYNAMIC_DISPATCH(BackwardAll)(group);
+  HWY_DYNAMIC_DISPATCH(BackwardLanes)(group);
 }
 
 void ChainFinish(const ChainGroup& group) {
-  HWY_DYNAMIC_DISPATCH(FinishAll)(group);
+  HWY_DYNAMIC_DISPATCH(FinishLanes)(group);
 }
 
 }  // namespace emmy

@@ -1,17 +1,20 @@
 // Sweeps along a chain of ANCF bodies, eight pieces of it at a time, by SIMD.
 //
 // A chain is cut into pieces of `length` bodies, eight pieces make a group, and
-// lane l of pack t of a group is body t of its piece l. Everything a body has is
-// in blocks of eight numbers, one a lane. A body has a joint on its right and
-// one on its left, which is the right one of the body before; the last right
-// joint of a piece is its separator. Lanes never mix in a sweep, so the bits are
-// the same with every instruction set.
+// lane l of pack t of a group is body t of its piece l. Everything a body has
+// is in blocks of eight numbers, one a lane. A body has a joint on its right
+// and one on its left, which is the right one of the body before; the last
+// right joint of a piece is its separator. Lanes never mix in a sweep, so the
+// bits are the same with every instruction set.
 //
 // One iteration on (EM-9), with the bodies eliminated (EM-14):
 //   forward   residual r and u = K⁻¹ r of each body, joints eliminated from the
 //             piece's start to its end (block tridiagonal S)      (EM-15)
 //   between   the separators, by the caller
 //   backward  joint impulses and velocity increments
+//
+// Without a factor there is no row: forward and backward treat each body by
+// itself, and the caller the joints between them (joint_net.h).
 //
 // Weights g₀, g₁, g₂, g₃ of a joint on a body are those of x̄, e₁, e₂, e₃; zero
 // where there is no joint. Principal second moments only.
@@ -28,13 +31,14 @@ inline constexpr int kPackLanes = 8;
 struct BodyConstants {
   static constexpr int kMass = 0;
   static constexpr int kInverseMass = 1;
-  static constexpr int kMoment = 2;          // Mⁱⁱ
-  static constexpr int kStiffness = 5;       // b
-  static constexpr int kInverse = 11;        // As in (EM-6).
-  static constexpr int kShear = 17;          // c of the shear pairs.
-  static constexpr int kRightWeight = 20;    // g of the right joint.
-  static constexpr int kLeftWeight = 24;     // Of the left one.
-  static constexpr int kRightCompliance = 28;  // Ŝ of the right joint, symmetric.
+  static constexpr int kMoment = 2;        // Mⁱⁱ
+  static constexpr int kStiffness = 5;     // b
+  static constexpr int kInverse = 11;      // As in (EM-6).
+  static constexpr int kShear = 17;        // c of the shear pairs.
+  static constexpr int kRightWeight = 20;  // g of the right joint.
+  static constexpr int kLeftWeight = 24;   // Of the left one.
+  static constexpr int kRightCompliance =
+      28;  // Ŝ of the right joint, symmetric.
   static constexpr int kLeftCompliance = 34;   // Of the left one.
   static constexpr int kCrossCompliance = 40;  // Right row, left column.
   static constexpr int kSize = 49;
@@ -60,9 +64,9 @@ struct BodyIterateBlock {
 
 // From the forward sweep to the backward one; then the solution.
 struct BodyScratchBlock {
-  static constexpr int kCorrection = 0;  // u
-  static constexpr int kFrame = 12;      // Q
-  static constexpr int kJoint = 21;      // y of the right joint.
+  static constexpr int kCorrection = 0;         // u
+  static constexpr int kFrame = 12;             // Q
+  static constexpr int kJoint = 21;             // y of the right joint.
   static constexpr int kPositionIncrement = 0;  // Δq, by Finish.
   static constexpr int kStrainIncrement = 12;   // Δε, by Finish.
   static constexpr int kSize = 24;
@@ -72,7 +76,7 @@ struct BodyScratchBlock {
 struct JointFactorBlock {
   static constexpr int kInverse = 0;  // D⁻¹, symmetric.
   static constexpr int kNext = 6;     // L: what the next joint gets of it.
-  static constexpr int kStart = 15;   // Z = D⁻¹ C, C the tie to the left end.
+  static constexpr int kStart = 15;  // Z = D⁻¹ C, C the tie to the left end.
   static constexpr int kSize = 24;
 };
 
@@ -114,14 +118,16 @@ struct PieceBlock {
 struct ChainGroup {
   int length = 0;
   double time_step = 0.0;
-  double shift = 0.0;                // κ
-  double gravity[3] = {0, 0, 0};     // g [m/s²]
+  double shift = 0.0;                        // κ
+  double gravity[3] = {0, 0, 0};             // g [m/s²]
   const double* const* constants = nullptr;  // A block a pack.
   const double* start = nullptr;
-  const double* loads = nullptr;  // Δt F, 12 a body; or none.
+  // Δt F, 12 a body, or none; without a factor less Gᵀ (Δt λ), and in the
+  // backward sweep Gᵀ δ(Δt λ).
+  const double* loads = nullptr;
   double* iterate = nullptr;
   double* scratch = nullptr;
-  double* factor = nullptr;
+  double* factor = nullptr;  // Of a row.
   double* piece = nullptr;
 };
 

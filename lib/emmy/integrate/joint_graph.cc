@@ -40,8 +40,8 @@ std::vector<BodyJoint> FindBodyJoints(const Structure& structure) {
         }
       }
       joint.bodies[side] = body;
-      joint.weights[side](
-          term.vector - structure.bodies[static_cast<size_t>(body)].first) +=
+      joint.weights[side](term.vector -
+                          structure.bodies[static_cast<size_t>(body)].first) +=
           term.weight;
     }
   }
@@ -81,8 +81,8 @@ std::optional<BodyRow> FindBodyRow(const Structure& structure,
     }
   }
   const auto to_ground = [&joints](int joint) {
-    return joint == kNone || joints[static_cast<size_t>(joint)].bodies[1] ==
-                                 BodyJoint::kNone;
+    return joint == kNone ||
+           joints[static_cast<size_t>(joint)].bodies[1] == BodyJoint::kNone;
   };
   // An end of the row: a body with one neighbour at most.
   for (size_t b = 0; b < of_body.size(); ++b) {

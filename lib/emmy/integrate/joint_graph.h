@@ -18,8 +18,7 @@ struct BodyJoint {
   // ground.
   std::array<int, 2> bodies = {kNone, kNone};
   // Weights of x̄, e₁, e₂, e₃ of each: its columns of G.
-  std::array<Vector4d, 2> weights = {Vector4d::Zero(),
-                                            Vector4d::Zero()};
+  std::array<Vector4d, 2> weights = {Vector4d::Zero(), Vector4d::Zero()};
 };
 
 // The joints of `structure`, in the order of its constraints; empty if there

@@ -8,19 +8,25 @@
 
 #include "emmy/integrate/joint_chain.h"
 #include "emmy/integrate/joint_graph.h"
+#include "emmy/integrate/joint_net.h"
+#include "emmy/integrate/joint_system.h"
 
 namespace emmy {
 namespace {
 
 constexpr double kUnitRoundoff = std::numeric_limits<double>::epsilon() / 2.0;
 
+// A fresh matrix needs about half of that.
+constexpr int kManyIterations = 10;
+
 double MaxAbs(const Vector3d& v) { return v.cwiseAbs().maxCoeff(); }
 
 }  // namespace
 
-std::unique_ptr<JointStep> JointStep::Create(
-    const Structure& structure, double time_step,
-    const CoupledStepOptions& options, int num_threads) {
+std::unique_ptr<JointStep> JointStep::Create(const Structure& structure,
+                                             double time_step,
+                                             const CoupledStepOptions& options,
+                                             int num_threads) {
   if (options.always_factorize ||
       options.method != SymmetricFactor::Method::kAutomatic) {
     return nullptr;
@@ -28,11 +34,15 @@ std::unique_ptr<JointStep> JointStep::Create(
   const std::vector<BodyJoint> joints = FindBodyJoints(structure);
   if (joints.empty()) return nullptr;
   const std::optional<BodyRow> row = FindBodyRow(structure, joints);
-  if (!row.has_value()) return nullptr;
+  std::unique_ptr<JointSystem> system;
+  if (row.has_value()) {
+    system = std::make_unique<JointChain>(structure, joints, *row, time_step,
+                                          num_threads);
+  } else {
+    system = std::make_unique<JointNet>(structure, joints, time_step);
+  }
   return std::unique_ptr<JointStep>(
-      new JointStep(structure, time_step, options,
-                    std::make_unique<JointChain>(structure, joints, *row,
-                                                 time_step, num_threads)));
+      new JointStep(structure, time_step, options, std::move(system)));
 }
 
 JointStep::JointStep(const Structure& structure, double time_step,
@@ -59,11 +69,10 @@ BodyStepResult JointStep::Iterate() {
     result.iterations = i;
     // The sizes of rounding from the first iterate that is nearly right.
     constexpr int kSizesEvery = 4;
-    const ForwardWork work = i == 1 ? ForwardWork::kFactorize
+    const ForwardWork work = i == 1                 ? ForwardWork::kFactorize
                              : i % kSizesEvery == 2 ? ForwardWork::kSizes
                                                     : ForwardWork::kResidual;
     const JointSums& sums = system_->Evaluate(work);
-    if (i == 1) ++num_factorizations_;
     const double rate_floor = 4.0 * kUnitRoundoff * sums.rate;
     const double residual_work = std::abs(sums.work);
     const JointCorrection correction = system_->Correct();
@@ -96,6 +105,7 @@ BodyStepResult JointStep::Iterate() {
                         settled > kStagnationPatience)) {
         // An iterate that has run away, see CoupledStep.
         constexpr double kLargestShare = 1e-8;
+        if (i > kManyIterations) system_->Renew();
         if (residual_work <= kLargestShare * (sums.energy + sums.load_work)) {
           result.termination = Termination::kConverged;
         }
@@ -104,7 +114,8 @@ BodyStepResult JointStep::Iterate() {
     }
     constexpr double kSlow = 0.5;
     const bool far = result.correction > 1e3 * rate_floor;
-    if (far && i > 1 && result.correction > kSlow * previous && ++slow > 2) {
+    if (far && i > 1 && result.correction > kSlow * previous &&
+        !system_->Renew() && ++slow > 2) {
       return result;
     }
     previous = result.correction;
@@ -117,6 +128,7 @@ BodyStepResult JointStep::Solve(const State& state) {
   BodyStepResult result = Iterate();
   used_coupled_ = result.termination != Termination::kConverged;
   if (!used_coupled_) return result;
+  system_->Renew();
   if (coupled_ == nullptr) {
     coupled_ = std::make_unique<CoupledStep>(*structure_, time_step_, options_);
   }
@@ -138,14 +150,14 @@ void JointStep::Commit(State& state) {
 
 std::string JointStep::WorstPart() const { return coupled_->WorstPart(); }
 
-KeptTangent JointStep::Keep() const { return {}; }
+KeptTangent JointStep::Keep() const { return system_->Keep(); }
 
 bool JointStep::Restore(const KeptTangent& kept) {
-  return kept.matrix.size() == 0;
+  return system_->Restore(kept);
 }
 
 int JointStep::num_factorizations() const {
-  return num_factorizations_ +
+  return system_->num_factorizations() +
          (coupled_ == nullptr ? 0 : coupled_->num_factorizations());
 }
 

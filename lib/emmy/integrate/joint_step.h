@@ -27,7 +27,7 @@ class JointSystem;
 class JointStep {
  public:
   // Null if `structure`, which must outlive the step, has other parts than
-  // ANCF bodies in principal axes that shared points join in a row.
+  // ANCF bodies in principal axes, joined by shared points.
   static std::unique_ptr<JointStep> Create(const Structure& structure,
                                            double time_step,
                                            const CoupledStepOptions& options,
@@ -63,7 +63,6 @@ class JointStep {
   // Made when it is first needed.
   std::unique_ptr<CoupledStep> coupled_;
   bool used_coupled_ = false;
-  int num_factorizations_ = 0;
 };
 
 }  // namespace emmy

@@ -28,8 +28,7 @@ Vector3d VectorSum(const double* pieces, size_t groups, int block) {
 double Largest(const double* pieces, size_t groups, int block) {
   double largest = 0.0;
   for (size_t i = 0; i < groups * kLanes; ++i) {
-    largest =
-        std::max(largest, PackEntry(Piece(pieces, i), block, i % kLanes));
+    largest = std::max(largest, PackEntry(Piece(pieces, i), block, i % kLanes));
   }
   return largest;
 }

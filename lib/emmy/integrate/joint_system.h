@@ -6,6 +6,7 @@
 #include <cstddef>
 
 #include "emmy/base/types.h"
+#include "emmy/integrate/coupled_tangent.h"
 #include "emmy/integrate/joint_chain_kernel.h"
 #include "emmy/model/state.h"
 
@@ -49,6 +50,18 @@ class JointSystem {
 
   // Solves (EM-14) and corrects the iterate.
   virtual JointCorrection Correct() = 0;
+
+  // A matrix kept from an earlier step is made anew by the next Evaluate with
+  // kFactorize or, in a step, at once; false if none was kept.
+  virtual bool Renew() { return false; }
+
+  // What is kept from step to step, and back to it; see CoupledTangent.
+  virtual KeptTangent Keep() const { return {}; }
+  virtual bool Restore(const KeptTangent& kept) {
+    return kept.matrix.size() == 0;
+  }
+
+  virtual int num_factorizations() const = 0;
 
   // Advances `state` by the iterate, except its time.
   virtual void Commit(State& state) = 0;
