@@ -13,7 +13,7 @@ namespace {
 
 // Longer pieces leave fewer joints between them, shorter ones stay in the
 // cache from one sweep to the next.
-constexpr size_t kLongestPiece = 128;
+constexpr size_t kLongestPiece = 64;
 constexpr size_t kPerGroup = kLanes * kLongestPiece;
 
 }  // namespace
@@ -23,14 +23,15 @@ JointChain::JointChain(const Structure& structure,
                        double time_step, int num_threads)
     : structure_(&structure),
       time_step_(time_step),
-      num_threads_(num_threads),
       shift_(JointShift(structure)),
       groups_((row.bodies.size() + kPerGroup - 1) / kPerGroup),
       length_((row.bodies.size() + groups_ * kLanes - 1) / (groups_ * kLanes)),
       multipliers_(groups_ * length_ * kLanes, -1),
       factor_(AllocatePacks(groups_ * length_, JointFactorBlock::kSize)),
       pieces_(AllocatePacks(groups_, PieceBlock::kSize)),
-      separators_(groups_ * kLanes) {
+      separators_(groups_ * kLanes),
+      team_(std::min(static_cast<size_t>(num_threads), groups_)),
+      errors_(team_.size()) {
   std::vector<size_t> slots(structure.bodies.size());
   for (size_t i = 0; i < row.bodies.size(); ++i) {
     if (row.bodies[i] != BodyJoint::kNone) {
@@ -112,28 +113,46 @@ double* JointChain::Piece(size_t piece) {
 }
 
 void JointChain::Load(const State& state) {
-  packs_->Load(state, 0, packs_->packs());
-  for (size_t slot = 0; slot < multipliers_.size(); ++slot) {
+  state_ = &state;
+  is_evaluated_ = false;
+}
+
+void JointChain::LoadGroup(const State& state, size_t group) {
+  const size_t first = group * length_;
+  packs_->Load(state, first, first + length_);
+  const auto impulse = [this, &state](size_t slot) -> Vector3d {
     const Eigen::Index multiplier = multipliers_[slot];
-    Vector3d impulse = Vector3d::Zero();
-    if (multiplier >= 0) {
-      impulse = time_step_ * state.multiplier.next.segment<3>(multiplier);
-    }
-    SetPackVector(impulse, packs_->iterate(slot / kLanes),
+    if (multiplier < 0) return Vector3d::Zero();
+    return time_step_ * state.multiplier.next.segment<3>(multiplier);
+  };
+  for (size_t slot = first * kLanes; slot < (first + length_) * kLanes;
+       ++slot) {
+    SetPackVector(impulse(slot), packs_->iterate(slot / kLanes),
                   BodyIterateBlock::kImpulse, slot % kLanes);
   }
-  for (size_t piece = 1; piece < separators_.size(); ++piece) {
-    const size_t before = Slot(piece * length_ - 1);
-    SetPackVector(PackVector(packs_->iterate(before / kLanes),
-                             BodyIterateBlock::kImpulse, before % kLanes),
-                  Piece(piece), PieceBlock::kLeftImpulse, piece % kLanes);
+  for (size_t piece = group * kLanes; piece < (group + 1) * kLanes; ++piece) {
+    if (piece == 0) continue;
+    SetPackVector(impulse(Slot(piece * length_ - 1)), Piece(piece),
+                  PieceBlock::kLeftImpulse, piece % kLanes);
   }
 }
 
 const JointSums& JointChain::Evaluate(ForwardWork work) {
-  packs_->SetLoads();
-  for (size_t group = 0; group < groups_; ++group) {
-    ChainForward(Group(group), work);
+  const State* const state = std::exchange(state_, nullptr);
+  const bool has_loads = packs_->loads(0) != nullptr;
+  if (has_loads) {
+    for (size_t group = 0; group < groups_ && state != nullptr; ++group) {
+      LoadGroup(*state, group);
+    }
+    packs_->SetLoads();
+  }
+  if (!std::exchange(is_evaluated_, false)) {
+    team_.Run(groups_, [&](size_t, size_t first, size_t last) {
+      for (size_t group = first; group < last; ++group) {
+        if (state != nullptr && !has_loads) LoadGroup(*state, group);
+        ChainForward(Group(group), work);
+      }
+    });
   }
   AddPieceSums(work, pieces_.get(), groups_, &sums_);
   if (work == ForwardWork::kFactorize) FactorizeSeparators();
@@ -199,31 +218,73 @@ void JointChain::SolveSeparators() {
   }
 }
 
-JointCorrection JointChain::Correct() {
+JointCorrection JointChain::Correct(std::optional<ForwardWork> next) {
   SolveSeparators();
-  for (size_t group = 0; group < groups_; ++group) ChainBackward(Group(group));
+  // While a group is in the cache. Torques depend on the iterate.
+  is_evaluated_ = next.has_value() && packs_->loads(0) == nullptr;
+  team_.Run(groups_, [&](size_t, size_t first, size_t last) {
+    for (size_t group = first; group < last; ++group) {
+      ChainBackward(Group(group));
+      if (is_evaluated_) ChainForward(Group(group), *next);
+    }
+  });
   return PieceCorrection(pieces_.get(), groups_);
 }
 
-void JointChain::Commit(State& state) {
-  for (size_t group = 0; group < groups_; ++group) ChainFinish(Group(group));
-  packs_->AddLoadWork(state);
-  Extrapolation::Errors errors{};
-  packs_->Commit(0, packs_->packs(), state, &errors);
-  packs_->Predict(0, packs_->packs(), Extrapolation::BestOrder(errors), state);
-  Extrapolation::Errors multiplier_errors{};
-  for (size_t slot = 0; slot < multipliers_.size(); ++slot) {
+void JointChain::CommitGroup(size_t group, State& state, Errors* errors) {
+  const size_t first = group * length_;
+  ChainFinish(Group(group));
+  packs_->Commit(first, first + length_, state, &errors->rate);
+  for (size_t slot = first * kLanes; slot < (first + length_) * kLanes;
+       ++slot) {
     if (multipliers_[slot] < 0) continue;
     state.multiplier.Add(multipliers_[slot],
                          PackVector(packs_->iterate(slot / kLanes),
                                     BodyIterateBlock::kImpulse, slot % kLanes) /
                              time_step_,
-                         &multiplier_errors);
+                         &errors->multiplier);
   }
-  const int order = Extrapolation::BestOrder(multiplier_errors);
-  for (const Eigen::Index multiplier : multipliers_) {
-    if (multiplier >= 0) state.multiplier.Predict(multiplier, 3, order);
+}
+
+void JointChain::PredictGroup(size_t group, State& state) const {
+  const size_t first = group * length_;
+  packs_->Predict(first, first + length_, rate_order_, state);
+  for (size_t slot = first * kLanes; slot < (first + length_) * kLanes;
+       ++slot) {
+    if (multipliers_[slot] < 0) continue;
+    state.multiplier.Predict(multipliers_[slot], 3, multiplier_order_);
   }
+}
+
+void JointChain::Commit(State& state) {
+  std::fill(errors_.begin(), errors_.end(), Errors{});
+  team_.Run(groups_, [&](size_t member, size_t first, size_t last) {
+    for (size_t group = first; group < last; ++group) {
+      CommitGroup(group, state, &errors_[member]);
+      // In the cache, and with the order that is most often right.
+      PredictGroup(group, state);
+    }
+  });
+  if (packs_->loads(0) != nullptr) packs_->AddLoadWork(state);
+  Errors all{};
+  for (const Errors& errors : errors_) {
+    for (size_t p = 0; p < all.rate.size(); ++p) {
+      all.rate[p] = std::max(all.rate[p], errors.rate[p]);
+      all.multiplier[p] = std::max(all.multiplier[p], errors.multiplier[p]);
+    }
+  }
+  const int rate_order = Extrapolation::BestOrder(all.rate);
+  const int multiplier_order = Extrapolation::BestOrder(all.multiplier);
+  if (rate_order == rate_order_ && multiplier_order == multiplier_order_) {
+    return;
+  }
+  rate_order_ = rate_order;
+  multiplier_order_ = multiplier_order;
+  team_.Run(groups_, [&](size_t, size_t first, size_t last) {
+    for (size_t group = first; group < last; ++group) {
+      PredictGroup(group, state);
+    }
+  });
 }
 
 }  // namespace emmy

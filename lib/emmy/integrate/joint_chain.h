@@ -15,6 +15,7 @@
 #define EMMY_INTEGRATE_JOINT_CHAIN_H_
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "emmy/base/types.h"
@@ -23,6 +24,7 @@
 #include "emmy/integrate/joint_graph.h"
 #include "emmy/integrate/joint_system.h"
 #include "emmy/integrate/structure.h"
+#include "emmy/integrate/work_team.h"
 #include "emmy/model/state.h"
 
 namespace emmy {
@@ -35,7 +37,7 @@ class JointChain : public JointSystem {
 
   void Load(const State& state) override;
   const JointSums& Evaluate(ForwardWork work) override;
-  JointCorrection Correct() override;
+  JointCorrection Correct(std::optional<ForwardWork> next) override;
   void Commit(State& state) override;
   int num_factorizations() const override { return num_factorizations_; }
 
@@ -47,16 +49,24 @@ class JointChain : public JointSystem {
     Vector3d step = Vector3d::Zero();
   };
 
+  // What commits of one thread find, apart from those of others.
+  struct alignas(128) Errors {
+    Extrapolation::Errors rate;
+    Extrapolation::Errors multiplier;
+  };
+
   size_t Slot(size_t i) const;
   void MakeConstants(const std::vector<BodyJoint>& joints, const BodyRow& row);
   ChainGroup Group(size_t group);
+  void LoadGroup(const State& state, size_t group);
+  void CommitGroup(size_t group, State& state, Errors* errors);
+  void PredictGroup(size_t group, State& state) const;
   double* Piece(size_t piece);
   void FactorizeSeparators();
   void SolveSeparators();
 
   const Structure* structure_;
   double time_step_;
-  int num_threads_;
   double shift_;
   size_t groups_;
   size_t length_;  // Packs a group.
@@ -66,7 +76,14 @@ class JointChain : public JointSystem {
   PackArray constants_, factor_, pieces_;
   std::vector<const double*> constants_of_pack_;
   std::vector<Separator> separators_;
+  WorkTeam team_;
   JointSums sums_;
+  const State* state_ = nullptr;  // To be loaded by the next Evaluate.
+  bool is_evaluated_ = false;     // By Correct.
+  std::vector<Errors> errors_;    // A thread each.
+  // Of the last step's predictions, and likely those of the next.
+  int rate_order_ = 0;
+  int multiplier_order_ = 0;
   int num_factorizations_ = 0;
 };
 

@@ -211,7 +211,7 @@ bool JointNet::Factorize() {
   return factor_.Factorize(matrix_);
 }
 
-JointCorrection JointNet::Correct() {
+JointCorrection JointNet::Correct(std::optional<ForwardWork> /*next*/) {
   using S = BodyScratchBlock;
   for (size_t j = 0; j < joints_.size(); ++j) {
     const Joint& joint = joints_[j];

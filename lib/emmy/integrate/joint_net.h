@@ -9,6 +9,7 @@
 #define EMMY_INTEGRATE_JOINT_NET_H_
 
 #include <array>
+#include <optional>
 #include <vector>
 
 #include "emmy/base/types.h"
@@ -31,7 +32,7 @@ class JointNet : public JointSystem {
 
   void Load(const State& state) override;
   const JointSums& Evaluate(ForwardWork work) override;
-  JointCorrection Correct() override;
+  JointCorrection Correct(std::optional<ForwardWork> next) override;
   void Commit(State& state) override;
   bool Renew() override;
   KeptTangent Keep() const override;

@@ -19,6 +19,15 @@ constexpr double kUnitRoundoff = std::numeric_limits<double>::epsilon() / 2.0;
 // A fresh matrix needs about half of that.
 constexpr int kManyIterations = 10;
 
+// The sizes of rounding from the first iterate that is nearly right, and now
+// and then.
+ForwardWork WorkOf(int iteration) {
+  constexpr int kSizesEvery = 4;
+  if (iteration == 1) return ForwardWork::kFactorize;
+  return iteration % kSizesEvery == 2 ? ForwardWork::kSizes
+                                      : ForwardWork::kResidual;
+}
+
 double MaxAbs(const Vector3d& v) { return v.cwiseAbs().maxCoeff(); }
 
 }  // namespace
@@ -67,15 +76,13 @@ BodyStepResult JointStep::Iterate() {
   int settled = 0;
   for (int i = 1; i <= options_.newton.max_iterations; ++i) {
     result.iterations = i;
-    // The sizes of rounding from the first iterate that is nearly right.
-    constexpr int kSizesEvery = 4;
-    const ForwardWork work = i == 1                 ? ForwardWork::kFactorize
-                             : i % kSizesEvery == 2 ? ForwardWork::kSizes
-                                                    : ForwardWork::kResidual;
-    const JointSums& sums = system_->Evaluate(work);
+    const JointSums& sums = system_->Evaluate(WorkOf(i));
     const double rate_floor = 4.0 * kUnitRoundoff * sums.rate;
     const double residual_work = std::abs(sums.work);
-    const JointCorrection correction = system_->Correct();
+    // Whether more iterations follow is guessed by the last step: of effect on
+    // time alone.
+    const JointCorrection correction = system_->Correct(
+        i < last_iterations_ ? std::optional(WorkOf(i + 1)) : std::nullopt);
     result.correction = correction.largest;
     if (!correction.is_finite || !std::isfinite(sums.work) ||
         !std::isfinite(sums.work_size) || !std::isfinite(sums.moment_size) ||
@@ -126,6 +133,7 @@ BodyStepResult JointStep::Iterate() {
 BodyStepResult JointStep::Solve(const State& state) {
   system_->Load(state);
   BodyStepResult result = Iterate();
+  last_iterations_ = result.iterations;
   used_coupled_ = result.termination != Termination::kConverged;
   if (!used_coupled_) return result;
   system_->Renew();

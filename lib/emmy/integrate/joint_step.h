@@ -63,6 +63,7 @@ class JointStep {
   // Made when it is first needed.
   std::unique_ptr<CoupledStep> coupled_;
   bool used_coupled_ = false;
+  int last_iterations_ = 0;
 };
 
 }  // namespace emmy

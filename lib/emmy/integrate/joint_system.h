@@ -4,6 +4,7 @@
 #define EMMY_INTEGRATE_JOINT_SYSTEM_H_
 
 #include <cstddef>
+#include <optional>
 
 #include "emmy/base/types.h"
 #include "emmy/integrate/coupled_tangent.h"
@@ -41,15 +42,17 @@ class JointSystem {
  public:
   virtual ~JointSystem() = default;
 
-  // Takes the start of a step, and the start values of its iteration.
+  // Takes the start of a step, and the start values of its iteration; `state`
+  // must stay as it is until the first Evaluate, which is with kFactorize.
   virtual void Load(const State& state) = 0;
 
   // Residual of the iterate, and the bodies' part of the correction. What
   // `work` leaves out of the sums is as it was before.
   virtual const JointSums& Evaluate(ForwardWork work) = 0;
 
-  // Solves (EM-14) and corrects the iterate.
-  virtual JointCorrection Correct() = 0;
+  // Solves (EM-14) and corrects the iterate. If `next` is given, an Evaluate
+  // with it is likely to follow, and may be done at once.
+  virtual JointCorrection Correct(std::optional<ForwardWork> next) = 0;
 
   // A matrix kept from an earlier step is made anew by the next Evaluate with
   // kFactorize or, in a step, at once; false if none was kept.
