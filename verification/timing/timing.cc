@@ -53,7 +53,8 @@ struct Samples {
 // Names without the settings that Google Benchmark appends.
 std::string PlainName(const std::string& name) {
   std::string plain = name;
-  for (const char* const suffix : {"/min_time:", "/iterations:", "/repeats:"}) {
+  for (const char* const suffix :
+       {"/min_time:", "/iterations:", "/repeats:", "/real_time"}) {
     plain = plain.substr(0, plain.find(suffix));
   }
   return plain;
@@ -64,8 +65,12 @@ void AddRow(const Json& row, Samples* samples) {
     samples->error = row.value("error_message", "failed");
     return;
   }
-  samples->times.push_back(Nanoseconds(row.at("cpu_time").get<double>(),
-                                       row.at("time_unit").get<std::string>()));
+  // Of several threads, the time that passes.
+  const bool threaded =
+      row.at("name").get<std::string>().find("/real_time") != std::string::npos;
+  samples->times.push_back(
+      Nanoseconds(row.at(threaded ? "real_time" : "cpu_time").get<double>(),
+                  row.at("time_unit").get<std::string>()));
   for (const auto& [key, value] : row.items()) {
     if (value.is_number() && !IsOwnKey(key)) {
       samples->counters[key].push_back(value.get<double>());

@@ -14,7 +14,9 @@ namespace emmy::verification {
 // One benchmark over its repetitions.
 struct Timing {
   std::string name;
-  double median = 0.0;  // Processor time of an iteration [ns].
+  // Processor time of an iteration; real time if that is what the benchmark
+  // measures [ns].
+  double median = 0.0;
   // Largest less smallest over the median: how far to trust a ratio.
   double spread = 0.0;
   int repetitions = 0;

@@ -8,7 +8,7 @@
 // iteration of each step.
 //
 // The row is cut into pieces, eight of which are eliminated side by side
-// (joint_chain_kernel.h); the joints between pieces come last.      (EM-15)
+// (joint_chain_kernel.h); the joints between pieces come last.      (EM-16)
 // The cuts depend on the number of bodies alone.
 
 #ifndef EMMY_INTEGRATE_JOINT_CHAIN_H_

@@ -9,7 +9,7 @@
 //
 // One iteration on (EM-9), with the bodies eliminated (EM-14):
 //   forward   residual r and u = K⁻¹ r of each body, joints eliminated from the
-//             piece's start to its end (block tridiagonal S)      (EM-15)
+//             piece's start to its end (block tridiagonal S)      (EM-16)
 //   between   the separators, by the caller
 //   backward  joint impulses and velocity increments
 //

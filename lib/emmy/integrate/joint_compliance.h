@@ -2,7 +2,7 @@
 //
 // With the constant tangent (EM-6) of the body, a unit impulse at a joint with
 // weights h changes the rate of the joint with weights g by
-//   Ŝ(g, h) = g₀ h₀ / M · 1 + Σᵢⱼ gᵢ hⱼ (K⁻¹)ᵢⱼ                     (EM-14)
+//   Ŝ(g, h) = g₀ h₀ / M · 1 + Σᵢⱼ gᵢ hⱼ (K⁻¹)ᵢⱼ                     (EM-15)
 // Principal second moments only.
 
 #ifndef EMMY_INTEGRATE_JOINT_COMPLIANCE_H_
