@@ -3,9 +3,8 @@
 #include <Eigen/Geometry>
 #include <Eigen/LU>
 #include <algorithm>
+#include <array>
 #include <utility>
-
-#include "emmy/base/compensated_sum.h"
 
 namespace emmy {
 
@@ -191,30 +190,30 @@ void BodyPacks::AddLoadWork(State& state) {
   state.load_work.Add(work);
 }
 
-void BodyPacks::Commit(size_t first, size_t last, State& state,
+void BodyPacks::Commit(size_t first, size_t last, int order, State& state,
                        Extrapolation::Errors* errors) {
-  using S = BodyScratchBlock;
-  for (size_t pack = first; pack < last; ++pack) {
-    const double* const solution = scratch(pack);
-    const double* const rates =
-        iterate(pack) + BodyIterateBlock::kRateIncrement;
-    for (size_t lane = 0; lane < kLanes; ++lane) {
-      const Place& place = places_[pack * kLanes + lane];
-      if (place.position < 0) continue;
-      Vector12d dq;
-      Vector12d dw;
-      Vector6d strain;
-      for (int i = 0; i < 12; ++i) {
-        dq(i) = PackEntry(solution, S::kPositionIncrement + i, lane);
-        dw(i) = PackEntry(rates, i, lane);
-      }
-      for (int k = 0; k < 6; ++k) {
-        strain(k) = PackEntry(solution, S::kStrainIncrement + k, lane);
-      }
-      state.position.Add(place.position, dq);
-      state.velocity.Add(place.velocity, dw);
-      state.strain.Add(place.strain, strain);
-      state.acceleration.Add(place.velocity, dw / time_step_, errors);
+  constexpr size_t kOrders = Extrapolation::kOrders;
+  std::array<double, kOrders * kErrorLanes> lanes{};
+  for (size_t slot = first * kLanes; slot < last * kLanes; ++slot) {
+    const Place& at = places_[slot];
+    if (at.position < 0) continue;
+    const BodyPlace place = {
+        .value = {state.position.value.data() + at.position,
+                  state.velocity.value.data() + at.velocity,
+                  state.strain.value.data() + at.strain},
+        .compensation = {state.position.compensation.data() + at.position,
+                         state.velocity.compensation.data() + at.velocity,
+                         state.strain.compensation.data() + at.strain},
+        .differences = state.acceleration.differences.data() +
+                       Extrapolation::kOrders * at.velocity,
+        .next = state.acceleration.next.data() + at.velocity};
+    CommitBody(scratch(slot / kLanes), iterate(slot / kLanes),
+               static_cast<int>(slot % kLanes), time_step_, order, place,
+               lanes.data());
+  }
+  for (size_t p = 0; p < kOrders; ++p) {
+    for (size_t lane = 0; lane < kErrorLanes; ++lane) {
+      (*errors)[p] = std::max((*errors)[p], lanes[p * kErrorLanes + lane]);
     }
   }
 }

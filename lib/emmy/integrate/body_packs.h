@@ -79,8 +79,9 @@ class BodyPacks {
   // if there are none.
   void SetLoads();
 
-  // After ChainFinish: advances the packs [first, last), not the predictions.
-  void Commit(size_t first, size_t last, State& state,
+  // After ChainFinish: advances the packs [first, last) and predicts their
+  // accelerations by order `order`.
+  void Commit(size_t first, size_t last, int order, State& state,
               Extrapolation::Errors* errors);
   void Predict(size_t first, size_t last, int order, State& state) const;
   void AddLoadWork(State& state);

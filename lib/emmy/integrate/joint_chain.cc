@@ -234,7 +234,7 @@ JointCorrection JointChain::Correct(std::optional<ForwardWork> next) {
 void JointChain::CommitGroup(size_t group, State& state, Errors* errors) {
   const size_t first = group * length_;
   ChainFinish(Group(group));
-  packs_->Commit(first, first + length_, state, &errors->rate);
+  packs_->Commit(first, first + length_, rate_order_, state, &errors->rate);
   for (size_t slot = first * kLanes; slot < (first + length_) * kLanes;
        ++slot) {
     if (multipliers_[slot] < 0) continue;
@@ -246,9 +246,8 @@ void JointChain::CommitGroup(size_t group, State& state, Errors* errors) {
   }
 }
 
-void JointChain::PredictGroup(size_t group, State& state) const {
+void JointChain::PredictJoints(size_t group, State& state) const {
   const size_t first = group * length_;
-  packs_->Predict(first, first + length_, rate_order_, state);
   for (size_t slot = first * kLanes; slot < (first + length_) * kLanes;
        ++slot) {
     if (multipliers_[slot] < 0) continue;
@@ -260,9 +259,9 @@ void JointChain::Commit(State& state) {
   std::fill(errors_.begin(), errors_.end(), Errors{});
   team_.Run(groups_, [&](size_t member, size_t first, size_t last) {
     for (size_t group = first; group < last; ++group) {
+      // Predicted in the cache, with the order that is most often right.
       CommitGroup(group, state, &errors_[member]);
-      // In the cache, and with the order that is most often right.
-      PredictGroup(group, state);
+      PredictJoints(group, state);
     }
   });
   if (packs_->loads(0) != nullptr) packs_->AddLoadWork(state);
@@ -282,7 +281,9 @@ void JointChain::Commit(State& state) {
   multiplier_order_ = multiplier_order;
   team_.Run(groups_, [&](size_t, size_t first, size_t last) {
     for (size_t group = first; group < last; ++group) {
-      PredictGroup(group, state);
+      packs_->Predict(group * length_, (group + 1) * length_, rate_order_,
+                      state);
+      PredictJoints(group, state);
     }
   });
 }

@@ -60,7 +60,7 @@ class JointChain : public JointSystem {
   ChainGroup Group(size_t group);
   void LoadGroup(const State& state, size_t group);
   void CommitGroup(size_t group, State& state, Errors* errors);
-  void PredictGroup(size_t group, State& state) const;
+  void PredictJoints(size_t group, State& state) const;
   double* Piece(size_t piece);
   void FactorizeSeparators();
   void SolveSeparators();

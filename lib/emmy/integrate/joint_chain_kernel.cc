@@ -5,6 +5,8 @@
 
 #include <cstddef>
 
+#include "emmy/base/compensated_sum.h"
+
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "emmy/integrate/joint_chain_kernel.cc"
 // Vectors of a length unknown to the compiler cannot be kept in arrays.
@@ -632,6 +634,74 @@ HWY_INLINE void Finish(const ChainGroup& g, int lane) {
   }
 }
 
+// Of the numbers that one body has next to each other.
+using ShortTag = hn::CappedTag<double, kErrorLanes>;
+using ShortV = hn::Vec<ShortTag>;
+constexpr int kShort = static_cast<int>(hn::MaxLanes(ShortTag()));
+
+// (SUM-2)
+HWY_INLINE void Advance(ShortV increment, double* value, double* compensation) {
+  const ShortTag tag;
+  const ShortV a = hn::LoadU(tag, value);
+  const ShortV b = increment + hn::LoadU(tag, compensation);
+  const ShortV sum = a + b;
+  const ShortV b_part = sum - a;
+  const ShortV a_part = sum - b_part;
+  hn::StoreU(sum, tag, value);
+  hn::StoreU((a - a_part) + (b - b_part), tag, compensation);
+}
+
+void CommitOneBody(const double* scratch, const double* iterate, int lane,
+                   double time_step, int order, const BodyPlace& place,
+                   double* errors) {
+  const ShortTag tag;
+  HWY_ALIGN double dq[12];
+  HWY_ALIGN double dw[12];
+  HWY_ALIGN double strain[8];
+  for (int i = 0; i < 12; ++i) {
+    dq[i] =
+        scratch[(BodyScratchBlock::kPositionIncrement + i) * kPackLanes + lane];
+    dw[i] = iterate[(BodyIterateBlock::kRateIncrement + i) * kPackLanes + lane];
+  }
+  for (int k = 0; k < 6; ++k) {
+    strain[k] =
+        scratch[(BodyScratchBlock::kStrainIncrement + k) * kPackLanes + lane];
+  }
+  for (int i = 0; i < 12; i += kShort) {
+    Advance(hn::Load(tag, dq + i), place.value[0] + i,
+            place.compensation[0] + i);
+    Advance(hn::Load(tag, dw + i), place.value[1] + i,
+            place.compensation[1] + i);
+  }
+  // Six are no multiple of four.
+  constexpr int kWhole = 6 - 6 % kShort;
+  for (int k = 0; k < kWhole; k += kShort) {
+    Advance(hn::Load(tag, strain + k), place.value[2] + k,
+            place.compensation[2] + k);
+  }
+  for (int k = kWhole; k < 6; ++k) {
+    AddCompensated(strain[k], place.value[2][k], place.compensation[2][k]);
+  }
+  const ShortV dt = hn::Set(tag, time_step);
+  for (int i = 0; i < 12; i += kShort) {
+    ShortV old[4];
+    ShortV now[5];
+    double* const differences = place.differences + 4 * i;
+    hn::LoadInterleaved4(tag, differences, old[0], old[1], old[2], old[3]);
+    now[0] = hn::Load(tag, dw + i) / dt;
+    for (int j = 0; j < 4; ++j) {
+      now[j + 1] = now[j] - old[j];
+      double* const error = errors + kErrorLanes * j;
+      hn::StoreU(hn::Max(hn::LoadU(tag, error), hn::Abs(now[j + 1])), tag,
+                 error);
+    }
+    hn::StoreInterleaved4(now[0], now[1], now[2], now[3], tag, differences);
+    ShortV sum = hn::Zero(tag);
+    for (int j = order; j >= 0; --j) sum = sum + now[j];
+    hn::StoreU(sum, tag, place.next + i);
+  }
+}
+
 template <ForwardWork kWork>
 HWY_INLINE void ForwardLanes(const ChainGroup& group) {
   for (int lane = 0; lane < kPackLanes; lane += kStep) {
@@ -676,6 +746,7 @@ HWY_EXPORT(ForwardSizes);
 HWY_EXPORT(ForwardResidual);
 HWY_EXPORT(BackwardLanes);
 HWY_EXPORT(FinishLanes);
+HWY_EXPORT(CommitOneBody);
 
 void ChainForward(const ChainGroup& group, ForwardWork work) {
   switch (work) {
@@ -697,6 +768,13 @@ void ChainBackward(const ChainGroup& group) {
 
 void ChainFinish(const ChainGroup& group) {
   HWY_DYNAMIC_DISPATCH(FinishLanes)(group);
+}
+
+void CommitBody(const double* scratch, const double* iterate, int lane,
+                double time_step, int order, const BodyPlace& place,
+                double* errors) {
+  HWY_DYNAMIC_DISPATCH(CommitOneBody)
+  (scratch, iterate, lane, time_step, order, place, errors);
 }
 
 }  // namespace emmy

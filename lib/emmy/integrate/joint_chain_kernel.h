@@ -142,6 +142,22 @@ void ChainBackward(const ChainGroup& group);
 // Δq and Δε of Δw.
 void ChainFinish(const ChainGroup& group);
 
+// Where a body of a pack is in the state.
+struct BodyPlace {
+  double* value[3] = {nullptr, nullptr, nullptr};  // q, w and ε,
+  double* compensation[3] = {nullptr, nullptr, nullptr};
+  double* differences = nullptr;  // and the accelerations' (EXTRA-1).
+  double* next = nullptr;
+};
+
+// (EM-4) after ChainFinish, for one body, lane `lane` of a pack; and the
+// prediction of its accelerations by order `order`. `errors`, kErrorLanes for
+// each of four orders, grow to what they would have missed them by.
+inline constexpr int kErrorLanes = 4;
+void CommitBody(const double* scratch, const double* iterate, int lane,
+                double time_step, int order, const BodyPlace& place,
+                double* errors);
+
 }  // namespace emmy
 
 #endif  // EMMY_INTEGRATE_JOINT_CHAIN_KERNEL_H_

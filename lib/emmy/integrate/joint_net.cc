@@ -256,8 +256,12 @@ void JointNet::Commit(State& state) {
   for (size_t group = 0; group < groups; ++group) ChainFinish(Group(group));
   packs_.AddLoadWork(state);
   Extrapolation::Errors errors{};
-  packs_.Commit(0, packs_.packs(), state, &errors);
-  packs_.Predict(0, packs_.packs(), Extrapolation::BestOrder(errors), state);
+  packs_.Commit(0, packs_.packs(), rate_order_, state, &errors);
+  const int rate_order = Extrapolation::BestOrder(errors);
+  if (rate_order != rate_order_) {
+    packs_.Predict(0, packs_.packs(), rate_order, state);
+  }
+  rate_order_ = rate_order;
   Extrapolation::Errors multiplier_errors{};
   for (const Joint& joint : joints_) {
     state.multiplier.Add(joint.multiplier, joint.impulse / time_step_,

@@ -82,6 +82,7 @@ class JointNet : public JointSystem {
   std::vector<const double*> constants_of_pack_;
   VectorXd right_side_, solution_;
   JointSums sums_;
+  int rate_order_ = 0;  // Of the last step's prediction.
   int num_factorizations_ = 0;
 };
 
