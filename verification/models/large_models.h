@@ -29,7 +29,7 @@ Case BoxChain(int n);
 Case BoxGrid(int n);
 
 // n boxes in a binary tree of spherical joints: box i hangs on a corner of box
-// (i − 1) / 2. They overlap, which nothing minds.
+// (i − 1) / 2. They overlap: there is no contact.
 Case BoxTree(int n);
 
 // n boxes in a row, 2 m apart, neighbours joined by four trusses, spinning
