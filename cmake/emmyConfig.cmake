@@ -8,6 +8,7 @@ find_dependency(Eigen3 3.4)
 find_dependency(absl)
 find_dependency(CHOLMOD)
 find_dependency(hwy)
+find_dependency(Threads)
 list(REMOVE_ITEM CMAKE_MODULE_PATH "${CMAKE_CURRENT_LIST_DIR}")
 
 include("${CMAKE_CURRENT_LIST_DIR}/emmyTargets.cmake")

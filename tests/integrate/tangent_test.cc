@@ -41,6 +41,7 @@ std::vector<Case> Cases() {
         TensorInertia{.mass = 1000.0, .tensor = tensor, .volume = 0.5};
     tilted.orientation = RotationVector{{0.3, 0.2, -1.0}};
     cases.push_back({"GeneralAxes1e" + suffix, tilted, 0.01});
+    cases.push_back({"LargeStepGeneralAxes1e" + suffix, tilted, 0.1});
     RigidBodyDescription uneven = tilted;
     uneven.penalty =
         std::array<double, 6>{penalty,       3.0 * penalty,  0.2 * penalty,

@@ -87,6 +87,44 @@ BENCHMARK(Chain)
     ->Arg(10000)
     ->Unit(benchmark::kMicrosecond);
 
+// Argument: threads. As long as a published chain, of 1,076,748 links.
+void LongChain(benchmark::State& state) {
+  IntegratorOptions options = Options(1e-3);
+  options.num_threads = static_cast<int>(state.range(0));
+  CheckedRun run(BoxChain(1076748).model, options, /*warm_up=*/4);
+  run.TimeSteps(state, kKept);
+}
+BENCHMARK(LongChain)
+    ->Name("chain/long")
+    ->ArgName("threads")
+    ->Arg(1)
+    ->Arg(2)
+    ->UseRealTime()
+    ->Unit(benchmark::kMillisecond)
+    ->Iterations(5);
+
+// Argument: boxes a side; 2 n (n − 1) joints.
+void Grid(benchmark::State& state) {
+  CheckedRun run(BoxGrid(static_cast<int>(state.range(0))).model, Options(1e-3),
+                 /*warm_up=*/10);
+  run.TimeSteps(state, kKept);
+}
+BENCHMARK(Grid)
+    ->Name("grid")
+    ->ArgName("side")
+    ->Arg(10)
+    ->Arg(30)
+    ->Arg(100)
+    ->Unit(benchmark::kMillisecond);
+
+void Tree(benchmark::State& state) {
+  CheckedRun run(BoxTree(static_cast<int>(state.range(0))).model, Options(1e-3),
+                 /*warm_up=*/10);
+  run.TimeSteps(state, kKept);
+}
+BENCHMARK(Tree)->Name("tree")->ArgName("boxes")->Arg(100)->Arg(1000)->Unit(
+    benchmark::kMicrosecond);
+
 void TrussedRow(benchmark::State& state) {
   CheckedRun run(TrussedBoxes(static_cast<int>(state.range(0))).model,
                  Options(1e-3), /*warm_up=*/10);

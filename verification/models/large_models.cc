@@ -188,6 +188,87 @@ Case BoxChain(int n) {
   return value;
 }
 
+Case BoxGrid(int n) {
+  Case value;
+  value.name = absl::StrCat("box_grid_", n);
+  value.purpose = "A square grid of boxes joined by spherical joints.";
+  const Vector3d along(1.5, 0.0, 0.0);
+  const Vector3d across(0.0, 1.0, 0.0);
+  const auto name = [](int i, int j) {
+    return absl::StrCat("box_", i, "_", j);
+  };
+  // Out of the plane: ω = (ωx(j), ωy(i), 0) and vz = f(i) + g(j), so that
+  // neighbours move alike where they meet.
+  const auto tilt = [](int k) { return 0.1 * std::sin(0.9 * k); };
+  std::vector<double> rise(static_cast<size_t>(n), 0.0);   // g by j.
+  std::vector<double> climb(static_cast<size_t>(n), 0.0);  // f by i.
+  double mean = 0.0;
+  for (int k = 0; k < n; ++k) {
+    const auto here = static_cast<size_t>(k);
+    if (k > 0) {
+      rise[here] = rise[here - 1] + across(1) * (tilt(k - 1) + tilt(k));
+      climb[here] = climb[here - 1] - along(0) * (tilt(k - 1) + tilt(k));
+    }
+    mean += (rise[here] + climb[here]) / n;
+  }
+  const Vector3d spin(0.0, 0.0, kSpin);
+  for (int i = 0; i < n; ++i) {
+    for (int j = 0; j < n; ++j) {
+      RigidBodyDescription box = ChainBox(
+          0,
+          Vector3d(3.0 * (i - 0.5 * (n - 1)), 2.0 * (j - 0.5 * (n - 1)), 0.0));
+      box.name = name(i, j);
+      box.angular_velocity = spin + Vector3d(tilt(j), tilt(i), 0.0);
+      box.velocity = spin.cross(box.position) +
+                     Vector3d(0.1, 0.2,
+                              0.3 - mean + climb[static_cast<size_t>(i)] +
+                                  rise[static_cast<size_t>(j)]);
+      value.model.rigid_bodies.push_back(box);
+      if (i > 0) {
+        value.model.shared_points.push_back(
+            {BodyPoint{name(i - 1, j), along}, BodyPoint{box.name, -along}});
+      }
+      if (j > 0) {
+        value.model.shared_points.push_back(
+            {BodyPoint{name(i, j - 1), across}, BodyPoint{box.name, -across}});
+      }
+    }
+  }
+  value.integrator = Steps(1e-3, 1.0);
+  value.output_every = 100;
+  return value;
+}
+
+Case BoxTree(int n) {
+  Case value;
+  value.name = absl::StrCat("box_tree_", n);
+  value.purpose = "A binary tree of boxes joined by spherical joints.";
+  // On the box towards the root, and the box's own end.
+  const std::array<Vector3d, 2> branches = {Vector3d(1.5, 1.0, 0.0),
+                                            Vector3d(1.5, -1.0, 0.0)};
+  const Vector3d foot(-1.5, 0.0, 0.0);
+  for (int i = 0; i < n; ++i) {
+    RigidBodyDescription box = ChainBox(i, Vector3d(0.0, 0.0, 0.0));
+    box.angular_velocity = ChainOmega(i);
+    box.velocity = Vector3d(0.1, 0.2, 0.3);
+    if (i > 0) {
+      const int parent = (i - 1) / 2;
+      const RigidBodyDescription& other =
+          value.model.rigid_bodies[static_cast<size_t>(parent)];
+      const Vector3d& branch = branches[static_cast<size_t>((i - 1) % 2)];
+      box.position = other.position + branch - foot;
+      box.velocity = other.velocity + other.angular_velocity.cross(branch) -
+                     box.angular_velocity.cross(foot);
+      value.model.shared_points.push_back(
+          {BodyPoint{other.name, branch}, BodyPoint{box.name, foot}});
+    }
+    value.model.rigid_bodies.push_back(box);
+  }
+  value.integrator = Steps(1e-3, 1.0);
+  value.output_every = 100;
+  return value;
+}
+
 Case TrussedBoxes(int n) {
   Case value;
   value.name = absl::StrCat("trussed_boxes_", n);

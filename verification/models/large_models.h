@@ -23,6 +23,15 @@ Case SlackCableNet(int n);
 // faces (spherical joints), each with an angular velocity of its own.
 Case BoxChain(int n);
 
+// n × n boxes of 3 × 2 × 1 m in a square grid, neighbours sharing the middle of
+// their faces: 2 n (n − 1) joints in closed loops. It spins in its plane, and
+// each row and column of boxes tilts its own way.
+Case BoxGrid(int n);
+
+// n boxes in a binary tree of spherical joints: box i hangs on a corner of box
+// (i − 1) / 2. They overlap: there is no contact.
+Case BoxTree(int n);
+
 // n boxes in a row, 2 m apart, neighbours joined by four trusses, spinning
 // about the row.
 Case TrussedBoxes(int n);

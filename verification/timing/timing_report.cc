@@ -129,6 +129,15 @@ const std::vector<Ratio>& Ratios() {
       {"net 60 x 60, 10 ms: fresh CHOLMOD factors over a kept one",
        "net/fresh_cholmod/side:60/step_us:10000",
        "net/kept_factor/side:60/step_us:10000", 25.0, true},
+      {"chain of 1,076,748 boxes over one of 1000 (0.84 over 0.49 us a link: "
+       "1850)",
+       "chain/long/threads:1", "chain/boxes:1000", 1850.0, false},
+      {"chain of 1,076,748 boxes, one thread over two", "chain/long/threads:1",
+       "chain/long/threads:2", 1.6, true},
+      {"grid of 100 x 100 boxes, 19,800 joints, over a chain of 1000 (six "
+       "times "
+       "as much a joint: 119)",
+       "grid/side:100", "chain/boxes:1000", 119.0, false},
   };
   return *ratios;
 }
@@ -145,6 +154,9 @@ const std::vector<Growth>& Growths() {
        {{100.0, "chain/boxes:100"},
         {1000.0, "chain/boxes:1000"},
         {10000.0, "chain/boxes:10000"}},
+       1.1},
+      {"tree of joined boxes, 100 to 1000, by boxes",
+       {{100.0, "tree/boxes:100"}, {1000.0, "tree/boxes:1000"}},
        1.1},
       {"row of boxes joined by trusses, 10 to 1000, by boxes",
        {{10.0, "trussed_boxes/boxes:10"},

@@ -131,12 +131,11 @@ BodyStepResult Solve(const AncfBodyLanes& body, const double* position,
     if (i >= std::min(kEnough, body.options.max_iterations)) return result;
   }
 
-  const Vectors de = step * (w0 + (w_low + half_dw));
-  const Vectors e = e0 + (e_low + Lanes::Set(0.5) * de);
-  const Lanes stretch = Dot(e, de);
-  const Lanes shear = Dot(Next(e), de) + Dot(e, Next(de));
+  const VectorsAndError de = ScaledExactly(step, w0 + (w_low + half_dw));
+  const Vectors e = e0 + (e_low + Lanes::Set(0.5) * de.value);
+  const auto [stretch, shear] = StrainIncrementsOf(e, de);
   const Vectors dw = half_dw + half_dw;
-  StoreInterleaved(de.x, de.y, de.z, increment->gradients);
+  StoreInterleaved(de.value.x, de.value.y, de.value.z, increment->gradients);
   StoreInterleaved(dw.x, dw.y, dw.z, increment->rates);
   // In this order: the lane that means nothing is overwritten.
   shear.Store(increment->strain + 3);

@@ -27,6 +27,10 @@ absl::StatusOr<EnergyMomentumIntegrator> EnergyMomentumIntegrator::Create(
                       "\"round_off\" or a number between 0 and 1",
                       NumberText(*options.tolerance));
   }
+  if (options.num_threads < 1) {
+    return FieldError("/integrator/num_threads", "at least 1",
+                      std::to_string(options.num_threads));
+  }
   EnergyMomentumIntegrator integrator(model, options);
   const absl::Status status = integrator.MakeSteps(model);
   if (!status.ok()) return status;
@@ -50,7 +54,8 @@ absl::Status EnergyMomentumIntegrator::MakeSteps(const Model& model) {
       .newton = {.tolerance = options_.tolerance,
                  .max_iterations = options_.max_iterations},
       .always_full_newton = options_.always_full_newton,
-      .factor_method = options_.factor_method};
+      .factor_method = options_.factor_method,
+      .num_threads = options_.num_threads};
   for (const double size : SubSteps(options_.order, options_.time_step)) {
     // Steps of one size share what they keep, factorisations above all.
     const auto known = std::find_if(
@@ -84,6 +89,7 @@ int EnergyMomentumIntegrator::num_factorizations() const {
 std::vector<KeptTangent> EnergyMomentumIntegrator::Keep() const {
   std::vector<KeptTangent> kept;
   for (const ModelStep& step : steps_) {
+    for (const auto& part : step.joined()) kept.push_back(part->Keep());
     for (const CoupledStep& part : step.coupled()) kept.push_back(part.Keep());
   }
   return kept;
@@ -94,12 +100,18 @@ absl::Status EnergyMomentumIntegrator::Restore(
   size_t next = 0;
   bool fits = true;
   for (ModelStep& step : steps_) {
+    for (const auto& part : step.joined()) {
+      fits = fits && next < kept.size() && part->Restore(kept[next++]);
+    }
     for (CoupledStep& part : step.coupled()) {
       fits = fits && next < kept.size() && part.Restore(kept[next++]);
     }
   }
   if (fits && next == kept.size()) return absl::OkStatus();
   for (ModelStep& step : steps_) {
+    for (const auto& part : step.joined()) {
+      static_cast<void>(part->Restore({}));
+    }
     for (CoupledStep& part : step.coupled()) {
       static_cast<void>(part.Restore({}));
     }

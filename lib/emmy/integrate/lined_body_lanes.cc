@@ -436,11 +436,11 @@ BodyStepResult SolveLined(const Constants& constants, const BodyState& body,
 
   // Δq and Δε of the final Δw.
   const Lanes half = Lanes::Set(0.5);
-  const Vectors de = step * (w0 + (w_low + half_dw));
+  const VectorsAndError exact_de = ScaledExactly(step, w0 + (w_low + half_dw));
+  const Vectors& de = exact_de.value;
   const Vectors dx = step * (node_w0 + (node_w_low + node_half_dw));
   const Vectors e = e0 + (e_low + half * de);
-  const Lanes stretch = Dot(e, de);
-  const Lanes shear = Dot(Next(e), de) + Dot(e, Next(de));
+  const auto [stretch, shear] = StrainIncrementsOf(e, exact_de);
   const Vectors change =
       node_weight * dx + Combine(constants.vector_weight, SpreadOf(de));
   const Vectors d = start + (rest + half * change);

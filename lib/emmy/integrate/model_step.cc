@@ -99,12 +99,18 @@ ModelStep::ModelStep(
         part.lanes.emplace(*body->ancf(), time_step, newton);
       }
       free_ancf_.push_back(part);
+      continue;
+    }
+    const CoupledStepOptions coupled = {
+        .newton = newton,
+        .method = options.factor_method,
+        .always_factorize = options.always_full_newton};
+    std::unique_ptr<JointStep> joined =
+        JointStep::Create(structure, time_step, coupled, options.num_threads);
+    if (joined != nullptr) {
+      joined_.push_back(std::move(joined));
     } else {
-      coupled_.emplace_back(
-          structure, time_step,
-          CoupledStepOptions{.newton = newton,
-                             .method = options.factor_method,
-                             .always_factorize = options.always_full_newton});
+      coupled_.emplace_back(structure, time_step, coupled);
     }
   }
   for (size_t i = 0; i < model.bodies().size(); ++i) {
@@ -129,6 +135,7 @@ ModelStep::ModelStep(
 
 int ModelStep::num_factorizations() const {
   int sum = 0;
+  for (const auto& step : joined_) sum += step->num_factorizations();
   for (const CoupledStep& step : coupled_) sum += step.num_factorizations();
   return sum;
 }
@@ -176,6 +183,11 @@ bool ModelStep::Solve(const State& state, StepReport* report) {
   for (FreeConventional& part : free_conventional_) {
     if (!SolveFree(state, part, report)) return false;
   }
+  for (const std::unique_ptr<JointStep>& part : joined_) {
+    const BodyStepResult result = part->Solve(state);
+    const auto name = [&part] { return part->WorstPart(); };
+    if (!Accept(result, state, name, report)) return false;
+  }
   for (CoupledStep& part : coupled_) {
     const BodyStepResult result = part.Solve(state);
     const auto name = [&part] { return part.WorstPart(); };
@@ -189,7 +201,7 @@ bool ModelStep::Solve(const State& state, StepReport* report) {
   return true;
 }
 
-void ModelStep::Commit(State& state) const {
+void ModelStep::Commit(State& state) {
   const double dt = time_step_;
   for (const FreeAncf& part : free_ancf_) {
     CommitInLanes(part.increment, dt, model_->gravity(), *part.body, state);
@@ -197,6 +209,7 @@ void ModelStep::Commit(State& state) const {
   for (const FreeConventional& part : free_conventional_) {
     CommitInLanes(part.increment, dt, model_->gravity(), *part.body, state);
   }
+  for (const auto& part : joined_) part->Commit(state);
   for (const CoupledStep& part : coupled_) part.Commit(state);
   if (conventional_structure_.has_value()) {
     conventional_structure_->Commit(state);

@@ -8,6 +8,7 @@
 #ifndef EMMY_INTEGRATE_MODEL_STEP_H_
 #define EMMY_INTEGRATE_MODEL_STEP_H_
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -19,6 +20,7 @@
 #include "emmy/integrate/conventional_body_step.h"
 #include "emmy/integrate/conventional_structure_step.h"
 #include "emmy/integrate/coupled_step.h"
+#include "emmy/integrate/joint_step.h"
 #include "emmy/integrate/structure.h"
 #include "emmy/model/model.h"
 #include "emmy/model/state.h"
@@ -31,6 +33,7 @@ struct ModelStepOptions {
   NewtonOptions newton;
   bool always_full_newton = false;
   SymmetricFactor::Method factor_method = SymmetricFactor::Method::kAutomatic;
+  int num_threads = 1;
 };
 
 class ModelStep {
@@ -49,11 +52,15 @@ class ModelStep {
   bool Solve(const State& state, StepReport* report);
 
   // Advances `state` by the last solution, except its time and step number.
-  void Commit(State& state) const;
+  void Commit(State& state);
 
   // What each structure's step keeps from step to step.
   const std::vector<CoupledStep>& coupled() const { return coupled_; }
   std::vector<CoupledStep>& coupled() { return coupled_; }
+
+  const std::vector<std::unique_ptr<JointStep>>& joined() const {
+    return joined_;
+  }
 
   // Factorisations of structures so far.
   int num_factorizations() const;
@@ -85,6 +92,7 @@ class ModelStep {
   double time_step_;
   std::vector<FreeAncf> free_ancf_;
   std::vector<FreeConventional> free_conventional_;
+  std::vector<std::unique_ptr<JointStep>> joined_;
   std::vector<CoupledStep> coupled_;
   std::optional<ConventionalStructureStep> conventional_structure_;
 };

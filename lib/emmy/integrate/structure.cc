@@ -201,6 +201,7 @@ class Splitter {
           structure.translates[static_cast<size_t>(body.first + a)] = false;
         }
       }
+      structure.gravity = model_.gravity();
       structure.gravity_force.resize(3, structure.num_vectors());
       for (int v = 0; v < structure.num_vectors(); ++v) {
         structure.gravity_force.col(v) =

@@ -49,6 +49,7 @@ struct Structure {
   std::vector<Force> forces;
   std::vector<Torque> torques;
   std::vector<Mass> masses;
+  Vector3d gravity = Vector3d::Zero();       // [m/s²]
   Matrix3Xd gravity_force;                   // Constant [N].
   std::vector<Eigen::Index> strain_offsets;  // In the state, by local number.
 

@@ -9,6 +9,7 @@
 #define EMMY_NUMERICS_VECTOR_LANES_INL_H_
 #endif
 
+#include "emmy/numerics/compensated_lanes-inl.h"
 #include "emmy/numerics/four_lanes-inl.h"
 #include "hwy/highway.h"
 
@@ -49,6 +50,49 @@ HWY_INLINE Vectors LoadVectors(const double* p) {
   Vectors v;
   LoadInterleaved(p, &v.x, &v.y, &v.z);
   return v;
+}
+
+// s a, and what its rounding drops.
+struct VectorsAndError {
+  Vectors value, error;
+};
+HWY_INLINE VectorsAndError ScaledExactly(const Lanes& s, const Vectors& a) {
+  const LanesSum x = TwoProduct(s, a.x);
+  const LanesSum y = TwoProduct(s, a.y);
+  const LanesSum z = TwoProduct(s, a.z);
+  return {{x.value, y.value, z.value}, {x.error, y.error, z.error}};
+}
+
+// a · (value + error) as a pair. Source: Ogita, Rump and Oishi, SIAM J. Sci.
+// Comput. 26 (2005), algorithm 5.3.
+HWY_INLINE LanesSum DotExactly(const Vectors& a, const VectorsAndError& b) {
+  const LanesSum x = TwoProduct(a.x, b.value.x);
+  const LanesSum y = TwoProduct(a.y, b.value.y);
+  const LanesSum z = TwoProduct(a.z, b.value.z);
+  const LanesSum first = TwoSum(x.value, y.value);
+  const LanesSum second = TwoSum(first.value, z.value);
+  return {second.value, ((x.error + y.error) + (z.error + first.error)) +
+                            (second.error + Dot(a, b.error))};
+}
+
+HWY_INLINE VectorsAndError Next(const VectorsAndError& a) {
+  return {Next(a.value), Next(a.error)};
+}
+
+// The increments of the three stretches and the three shears along `de`, whose
+// parts cancel, rounded only once: in a million steps and more, the mean of
+// many roundings shows, which the penalty multiplies.
+struct StrainIncrements {
+  Lanes stretch, shear;
+};
+HWY_INLINE StrainIncrements StrainIncrementsOf(const Vectors& e,
+                                               const VectorsAndError& de) {
+  const LanesSum stretch = DotExactly(e, de);
+  const LanesSum first = DotExactly(Next(e), de);
+  const LanesSum second = DotExactly(e, Next(de));
+  const LanesSum shear = TwoSum(first.value, second.value);
+  return {stretch.value + stretch.error,
+          shear.value + (shear.error + (first.error + second.error))};
 }
 
 // Vector i in every lane.

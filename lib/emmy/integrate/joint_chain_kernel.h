@@ -1,0 +1,163 @@
+// Sweeps along a chain of ANCF bodies, eight pieces of it at a time, by SIMD.
+//
+// A chain is cut into pieces of `length` bodies, eight pieces make a group, and
+// lane l of pack t of a group is body t of its piece l. Everything a body has
+// is in blocks of eight numbers, one a lane. A body has a joint on its right
+// and one on its left, which is the right one of the body before; the last
+// right joint of a piece is its separator. Lanes never mix in a sweep, so the
+// bits are the same with every instruction set.
+//
+// One iteration on (EM-9), with the bodies eliminated (EM-14):
+//   forward   residual r and u = K⁻¹ r of each body, joints eliminated from the
+//             piece's start to its end (block tridiagonal S)      (EM-16)
+//   between   the separators, by the caller
+//   backward  joint impulses and velocity increments
+//
+// Without a factor there is no row: forward and backward treat each body by
+// itself, and the caller the joints between them (joint_net.h).
+//
+// Weights g₀, g₁, g₂, g₃ of a joint on a body are those of x̄, e₁, e₂, e₃; zero
+// where there is no joint. Principal second moments only.
+
+#ifndef EMMY_INTEGRATE_JOINT_CHAIN_KERNEL_H_
+#define EMMY_INTEGRATE_JOINT_CHAIN_KERNEL_H_
+
+namespace emmy {
+
+inline constexpr int kPackLanes = 8;
+
+// Offsets in blocks of eight numbers. Matrices by columns, symmetric ones as
+// 00, 10, 11, 20, 21, 22.
+struct BodyConstants {
+  static constexpr int kMass = 0;
+  static constexpr int kInverseMass = 1;
+  static constexpr int kMoment = 2;        // Mⁱⁱ
+  static constexpr int kStiffness = 5;     // b
+  static constexpr int kInverse = 11;      // As in (EM-6).
+  static constexpr int kShear = 17;        // c of the shear pairs.
+  static constexpr int kRightWeight = 20;  // g of the right joint.
+  static constexpr int kLeftWeight = 24;   // Of the left one.
+  static constexpr int kRightCompliance =
+      28;  // Ŝ of the right joint, symmetric.
+  static constexpr int kLeftCompliance = 34;   // Of the left one.
+  static constexpr int kCrossCompliance = 40;  // Right row, left column.
+  static constexpr int kSize = 49;
+};
+
+// The start of the step.
+struct BodyStartBlock {
+  static constexpr int kPosition = 0;  // q₀
+  static constexpr int kGradientCompensation = 12;
+  static constexpr int kVelocity = 21;  // w₀
+  static constexpr int kVelocityCompensation = 33;
+  static constexpr int kStrain = 45;
+  static constexpr int kStrainCompensation = 51;
+  static constexpr int kSize = 57;
+};
+
+// What the iteration changes.
+struct BodyIterateBlock {
+  static constexpr int kRateIncrement = 0;  // Δw
+  static constexpr int kImpulse = 12;       // Δt λ of the right joint.
+  static constexpr int kSize = 15;
+};
+
+// From the forward sweep to the backward one; then the solution.
+struct BodyScratchBlock {
+  static constexpr int kCorrection = 0;         // u
+  static constexpr int kFrame = 12;             // Q
+  static constexpr int kJoint = 21;             // y of the right joint.
+  static constexpr int kPositionIncrement = 0;  // Δq, by Finish.
+  static constexpr int kStrainIncrement = 12;   // Δε, by Finish.
+  static constexpr int kSize = 24;
+};
+
+// Of the elimination of the right joint.
+struct JointFactorBlock {
+  static constexpr int kInverse = 0;  // D⁻¹, symmetric.
+  static constexpr int kNext = 6;     // L: what the next joint gets of it.
+  static constexpr int kStart = 15;  // Z = D⁻¹ C, C the tie to the left end.
+  static constexpr int kSize = 24;
+};
+
+// Of the pieces as a whole.
+struct PieceBlock {
+  // Given by the caller:
+  static constexpr int kLeftImpulse = 0;  // Δt λ of the joint at the left end.
+  static constexpr int kRightStep = 3;    // Correction of the separator, and
+  static constexpr int kLeftStep = 6;     // of the one of the piece before.
+  // Written by Forward: the piece's part of the separator's right side (its
+  // residual and twice its rate, by values and by small parts), likewise for
+  // the separator of the piece before; then of the matrix.
+  static constexpr int kRightSide = 9;
+  static constexpr int kRightRate = 12;
+  static constexpr int kRightRest = 15;
+  static constexpr int kLeftSide = 18;
+  static constexpr int kLeftRate = 21;
+  static constexpr int kLeftRest = 24;
+  static constexpr int kRightMatrix = 27;  // Symmetric.
+  static constexpr int kLeftMatrix = 33;   // Symmetric.
+  static constexpr int kTie = 39;          // Right row, left column.
+  // Sums over the piece.
+  static constexpr int kForce = 48;
+  static constexpr int kMoment = 51;
+  static constexpr int kWork = 54;
+  static constexpr int kForceSize = 55;   // Squares of the terms' sizes,
+  static constexpr int kMomentSize = 56;  // with arm,
+  static constexpr int kWorkSize = 57;    // with rate.
+  static constexpr int kRate = 58;        // Largest |w₀|, |w̄|.
+  static constexpr int kEnergy = 59;      // Of the start.
+  static constexpr int kLoadWork = 60;    // Of the weight, in absolute value.
+  // Written by Backward.
+  static constexpr int kCorrection = 61;     // Largest |δw|.
+  static constexpr int kCorrectionSum = 62;  // Not finite if one is not.
+  static constexpr int kSize = 63;
+};
+
+// Of one group: arrays of `length` packs.
+struct ChainGroup {
+  int length = 0;
+  double time_step = 0.0;
+  double shift = 0.0;                        // κ
+  double gravity[3] = {0, 0, 0};             // g [m/s²]
+  const double* const* constants = nullptr;  // A block a pack.
+  const double* start = nullptr;
+  // Δt F, 12 a body, or none; without a factor less Gᵀ (Δt λ), and in the
+  // backward sweep Gᵀ δ(Δt λ).
+  const double* loads = nullptr;
+  double* iterate = nullptr;
+  double* scratch = nullptr;
+  double* factor = nullptr;  // Of a row.
+  double* piece = nullptr;
+};
+
+enum class ForwardWork {
+  kFactorize,  // In the first iteration: the factor and all sums too.
+  kSizes,      // The sizes of rounding too.
+  kResidual,   // Residual, elimination, force, moment and work.
+};
+
+void ChainForward(const ChainGroup& group, ForwardWork work);
+void ChainBackward(const ChainGroup& group);
+// Δq and Δε of Δw.
+void ChainFinish(const ChainGroup& group);
+
+// Where a body of a pack is in the state.
+struct BodyPlace {
+  double* value[3] = {nullptr, nullptr, nullptr};  // q, w and ε,
+  double* compensation[3] = {nullptr, nullptr, nullptr};
+  double* differences = nullptr;  // and the accelerations' (EXTRA-1).
+  double* next = nullptr;
+};
+
+// (EM-4) after ChainFinish, for one body, lane `lane` of a pack; and the
+// prediction of its accelerations by order `order`. `errors`, kErrorLanes for
+// each of four orders, grow to what they would have missed them by.
+inline constexpr int kErrorLanes = 4;
+void CommitBody(const double* scratch, const double* iterate, int lane,
+                double time_step, int order, const BodyPlace& place,
+                double* errors);
+
+}  // namespace emmy
+
+#endif  // EMMY_INTEGRATE_JOINT_CHAIN_KERNEL_H_

@@ -1,0 +1,172 @@
+#include "emmy/integrate/joint_step.h"
+
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "emmy/integrate/joint_chain.h"
+#include "emmy/integrate/joint_graph.h"
+#include "emmy/integrate/joint_net.h"
+#include "emmy/integrate/joint_system.h"
+
+namespace emmy {
+namespace {
+
+constexpr double kUnitRoundoff = std::numeric_limits<double>::epsilon() / 2.0;
+
+// A fresh matrix needs about half of that.
+constexpr int kManyIterations = 10;
+
+// The sizes of rounding from the first iterate that is nearly right, and now
+// and then.
+ForwardWork WorkOf(int iteration) {
+  constexpr int kSizesEvery = 4;
+  if (iteration == 1) return ForwardWork::kFactorize;
+  return iteration % kSizesEvery == 2 ? ForwardWork::kSizes
+                                      : ForwardWork::kResidual;
+}
+
+double MaxAbs(const Vector3d& v) { return v.cwiseAbs().maxCoeff(); }
+
+}  // namespace
+
+std::unique_ptr<JointStep> JointStep::Create(const Structure& structure,
+                                             double time_step,
+                                             const CoupledStepOptions& options,
+                                             int num_threads) {
+  if (options.always_factorize ||
+      options.method != SymmetricFactor::Method::kAutomatic) {
+    return nullptr;
+  }
+  const std::vector<BodyJoint> joints = FindBodyJoints(structure);
+  if (joints.empty()) return nullptr;
+  const std::optional<BodyRow> row = FindBodyRow(structure, joints);
+  std::unique_ptr<JointSystem> system;
+  if (row.has_value()) {
+    system = std::make_unique<JointChain>(structure, joints, *row, time_step,
+                                          num_threads);
+  } else {
+    system = std::make_unique<JointNet>(structure, joints, time_step);
+  }
+  return std::unique_ptr<JointStep>(
+      new JointStep(structure, time_step, options, std::move(system)));
+}
+
+JointStep::JointStep(const Structure& structure, double time_step,
+                     const CoupledStepOptions& options,
+                     std::unique_ptr<JointSystem> system)
+    : structure_(&structure),
+      time_step_(time_step),
+      options_(options),
+      system_(std::move(system)) {}
+
+JointStep::~JointStep() = default;
+
+BodyStepResult JointStep::Iterate() {
+  BodyStepResult result;
+  // As in CoupledStep, whose rule this is.
+  StagnationMonitor rate_monitor;
+  StagnationMonitor force_monitor;
+  StagnationMonitor moment_monitor;
+  StagnationMonitor work_monitor;
+  double previous = std::numeric_limits<double>::infinity();
+  int slow = 0;
+  int settled = 0;
+  for (int i = 1; i <= options_.newton.max_iterations; ++i) {
+    result.iterations = i;
+    const JointSums& sums = system_->Evaluate(WorkOf(i));
+    const double rate_floor = 4.0 * kUnitRoundoff * sums.rate;
+    const double residual_work = std::abs(sums.work);
+    // Whether more iterations follow is guessed by the last step: of effect on
+    // time alone.
+    const JointCorrection correction = system_->Correct(
+        i < last_iterations_ ? std::optional(WorkOf(i + 1)) : std::nullopt);
+    result.correction = correction.largest;
+    if (!correction.is_finite || !std::isfinite(sums.work) ||
+        !std::isfinite(sums.work_size) || !std::isfinite(sums.moment_size) ||
+        !sums.force.allFinite() || !sums.moment.allFinite()) {
+      result.termination = Termination::kNonFinite;
+      return result;
+    }
+    if (options_.newton.tolerance.has_value()) {
+      if (result.correction <= *options_.newton.tolerance * sums.rate) {
+        result.termination = Termination::kConverged;
+        return result;
+      }
+    } else {
+      const bool rate_done = rate_monitor.Update(result.correction, rate_floor);
+      const bool force_done =
+          structure_->is_grounded ||
+          force_monitor.Update(MaxAbs(sums.force),
+                               kUnitRoundoff * std::sqrt(sums.force_size));
+      const bool moment_done =
+          structure_->is_grounded ||
+          moment_monitor.Update(MaxAbs(sums.moment),
+                                kUnitRoundoff * std::sqrt(sums.moment_size));
+      const bool work_done = work_monitor.Update(
+          residual_work, kUnitRoundoff * std::sqrt(sums.work_size));
+      if (rate_done) ++settled;
+      if (rate_done && ((force_done && moment_done && work_done) ||
+                        settled > kStagnationPatience)) {
+        // An iterate that has run away, see CoupledStep.
+        constexpr double kLargestShare = 1e-8;
+        if (i > kManyIterations) system_->Renew();
+        if (residual_work <= kLargestShare * (sums.energy + sums.load_work)) {
+          result.termination = Termination::kConverged;
+        }
+        return result;
+      }
+    }
+    constexpr double kSlow = 0.5;
+    const bool far = result.correction > 1e3 * rate_floor;
+    if (far && i > 1 && result.correction > kSlow * previous &&
+        !system_->Renew() && ++slow > 2) {
+      return result;
+    }
+    previous = result.correction;
+  }
+  return result;
+}
+
+BodyStepResult JointStep::Solve(const State& state) {
+  system_->Load(state);
+  BodyStepResult result = Iterate();
+  last_iterations_ = result.iterations;
+  used_coupled_ = result.termination != Termination::kConverged;
+  if (!used_coupled_) return result;
+  system_->Renew();
+  if (coupled_ == nullptr) {
+    coupled_ = std::make_unique<CoupledStep>(*structure_, time_step_, options_);
+  }
+  // Nothing kept, so that a resumed run repeats every bit.
+  static_cast<void>(coupled_->Restore({}));
+  const int iterations = result.iterations;
+  result = coupled_->Solve(state);
+  result.iterations += iterations;
+  return result;
+}
+
+void JointStep::Commit(State& state) {
+  if (used_coupled_) {
+    coupled_->Commit(state);
+  } else {
+    system_->Commit(state);
+  }
+}
+
+std::string JointStep::WorstPart() const { return coupled_->WorstPart(); }
+
+KeptTangent JointStep::Keep() const { return system_->Keep(); }
+
+bool JointStep::Restore(const KeptTangent& kept) {
+  return system_->Restore(kept);
+}
+
+int JointStep::num_factorizations() const {
+  return system_->num_factorizations() +
+         (coupled_ == nullptr ? 0 : coupled_->num_factorizations());
+}
+
+}  // namespace emmy

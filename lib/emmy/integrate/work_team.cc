@@ -1,0 +1,44 @@
+#include "emmy/integrate/work_team.h"
+
+namespace emmy {
+
+WorkTeam::WorkTeam(size_t size) {
+  for (size_t member = 1; member < size; ++member) {
+    others_.emplace_back([this, member] { Serve(member); });
+  }
+}
+
+WorkTeam::~WorkTeam() {
+  ends_ = true;
+  ++run_;
+  run_.notify_all();
+  for (std::thread& thread : others_) thread.join();
+}
+
+void WorkTeam::RunMember(size_t member) const {
+  call_(target_, member, count_ * member / size(),
+        count_ * (member + 1) / size());
+}
+
+void WorkTeam::RunCall() {
+  if (!others_.empty()) {
+    busy_ = others_.size();
+    ++run_;
+    run_.notify_all();
+  }
+  RunMember(0);
+  for (size_t busy = busy_; busy != 0; busy = busy_) busy_.wait(busy);
+}
+
+void WorkTeam::Serve(size_t member) {
+  for (size_t seen = 0;;) {
+    run_.wait(seen);
+    // One run at a time: the next begins when all have done this one.
+    ++seen;
+    if (ends_) return;
+    RunMember(member);
+    if (--busy_ == 0) busy_.notify_all();
+  }
+}
+
+}  // namespace emmy

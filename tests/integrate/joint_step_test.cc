@@ -1,0 +1,214 @@
+// Bodies joined at shared points: the same motion as by the system of all
+// coordinates, and the same laws.
+
+#include "emmy/integrate/joint_step.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <functional>
+#include <ostream>
+#include <string>
+
+#include "emmy/diagnostics/extended_state.h"
+#include "tests/integrate/allocation_counter.h"
+#include "tests/support/structures.h"
+#include "tests/support/test_run.h"
+#include "verification/models/large_models.h"
+
+namespace emmy {
+namespace {
+
+constexpr double kKept = 1e-15;  // Of each law, relative.
+
+double LargestDifference(const State& a, const State& b) {
+  return (a.position.value - b.position.value).cwiseAbs().maxCoeff();
+}
+
+// The largest gap of a joint [m].
+double LargestGap(const TestRun& run) {
+  double largest = 0.0;
+  for (const ModelConstraint& constraint : run.model().constraints()) {
+    Point difference;
+    difference.terms = constraint.terms;
+    largest =
+        std::max(largest, ExtendedPosition(run.model(), run.state(), difference)
+                              .ToDouble()
+                              .cwiseAbs()
+                              .maxCoeff());
+  }
+  return largest;
+}
+
+ModelDescription Chain(int n) { return verification::BoxChain(n).model; }
+
+// The ends of the chain's first and last box held where they are, at rest.
+ModelDescription HangingChain(int n, bool both_ends) {
+  ModelDescription model = Chain(n);
+  for (RigidBodyDescription& box : model.rigid_bodies) {
+    box.velocity.setZero();
+    box.angular_velocity.setZero();
+  }
+  model.gravity = {0.0, 0.3, -9.81};
+  const RigidBodyDescription& first = model.rigid_bodies.front();
+  const RigidBodyDescription& last = model.rigid_bodies.back();
+  model.shared_points.push_back(
+      {GroundPoint{first.position - Vector3d(1.5, 0.0, 0.0)},
+       BodyPoint{first.name, {-1.5, 0.0, 0.0}}});
+  if (both_ends) {
+    model.shared_points.push_back(
+        {GroundPoint{last.position + Vector3d(1.5, 0.0, 0.0)},
+         BodyPoint{last.name, {1.5, 0.0, 0.0}}});
+  }
+  return model;
+}
+
+// Boxes joined in pairs by two points: hinges about the z axis.
+ModelDescription Hinges(int n) {
+  ModelDescription model;
+  Vector3d velocity(0.1, 0.2, 0.3);
+  double before = 0.0;
+  for (int i = 0; i < n; ++i) {
+    RigidBodyDescription box = PaperBox();
+    box.name = "box_" + std::to_string(i);
+    box.position = {3.0 * i, 0.0, 0.0};
+    const double omega = 0.3 + 0.2 * (i % 2);
+    const Vector3d arm(1.5, 0.0, 0.0);
+    if (i > 0) {
+      velocity += Vector3d(0.0, 0.0, before + omega).cross(arm);
+      for (const double z : {-0.5, 0.5}) {
+        model.shared_points.push_back(
+            {BodyPoint{"box_" + std::to_string(i - 1), {1.5, 0.0, z}},
+             BodyPoint{box.name, {-1.5, 0.0, z}}});
+      }
+    }
+    box.velocity = velocity;
+    box.angular_velocity = {0.0, 0.0, omega};
+    before = omega;
+    model.rigid_bodies.push_back(box);
+  }
+  return model;
+}
+
+ModelDescription Loaded(ModelDescription model) {
+  model.gravity = {0.1, -0.2, -9.81};
+  model.loads.push_back(TorqueLoad{"box_1", {300.0, -200.0, 100.0}});
+  model.loads.push_back(
+      ForceLoad{BodyPoint{"box_2", {0.3, 0.2, 0.1}}, {200.0, -100.0, 50.0}});
+  return model;
+}
+
+struct Kind {
+  const char* name;
+  std::function<ModelDescription()> model;
+  bool is_free = true;  // Not held by the ground, and without load.
+  friend void PrintTo(const Kind& kind, std::ostream* os) { *os << kind.name; }
+};
+
+class JointStepTest : public ::testing::TestWithParam<Kind> {
+ protected:
+  static constexpr double kTimeStep = 1e-3;
+
+  // By the system of all coordinates and multipliers.
+  static TestRun Coupled() {
+    return TestRun(GetParam().model(),
+                   IntegratorOptions{
+                       .time_step = kTimeStep,
+                       .factor_method = SymmetricFactor::Method::kSimplicial});
+  }
+};
+
+TEST_P(JointStepTest, MovesAsByTheSystemOfAllCoordinates) {
+  TestRun joined(GetParam().model(), kTimeStep);
+  TestRun coupled = Coupled();
+  ASSERT_TRUE(joined.Advance(200));
+  ASSERT_TRUE(coupled.Advance(200));
+  // Rounding of 10 m, grown by the stiff vibrations of 200 steps.
+  EXPECT_LE(LargestDifference(joined.state(), coupled.state()), 1e-12);
+}
+
+TEST_P(JointStepTest, KeepsTheLaws) {
+  TestRun run(GetParam().model(), kTimeStep);
+  const InvariantMonitor monitor = run.Watch(500);
+  EXPECT_LE(monitor.energy().max_relative_error(), kKept);
+  if (!GetParam().is_free) return;
+  EXPECT_LE(monitor.momentum().max_relative_error(), kKept);
+  EXPECT_LE(monitor.angular_momentum().max_relative_error(), kKept);
+}
+
+TEST_P(JointStepTest, JointsStayClosed) {
+  TestRun run(GetParam().model(), kTimeStep);
+  const double start = LargestGap(run);
+  ASSERT_TRUE(run.Advance(500));
+  const double largest = run.state().position.value.cwiseAbs().maxCoeff();
+  // The rounding of two coordinates; the increments' is far below it.
+  EXPECT_LE(LargestGap(run), start + 0x1p-52 * largest);
+}
+
+TEST_P(JointStepTest, RunsBackToTheStart) {
+  TestRun run(GetParam().model(), kTimeStep);
+  const State start = run.state();
+  ASSERT_TRUE(run.Advance(100));
+  EXPECT_GT(LargestDifference(run.state(), start), 1e-3);
+  run.SetOptions({.time_step = -kTimeStep});
+  ASSERT_TRUE(run.Advance(100));
+  EXPECT_LE(LargestDifference(run.state(), start), 1e-12);
+}
+
+// Large steps, where the correction does not converge: as before.
+TEST_P(JointStepTest, GoesOverToTheSystemOfAllCoordinates) {
+  TestRun run(GetParam().model(), 0.2);
+  const InvariantMonitor monitor = run.Watch(5);
+  EXPECT_EQ(run.state().step, 5);
+  EXPECT_LE(monitor.energy().max_relative_error(), 1e-13);
+}
+
+TEST_P(JointStepTest, TheNumberOfThreadsDoesNotMatter) {
+  TestRun one(GetParam().model(), kTimeStep);
+  TestRun two(GetParam().model(),
+              IntegratorOptions{.time_step = kTimeStep, .num_threads = 2});
+  ASSERT_TRUE(one.Advance(20));
+  ASSERT_TRUE(two.Advance(20));
+  EXPECT_TRUE(SameState(one.state(), two.state()));
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Kinds, JointStepTest,
+    ::testing::Values(
+        Kind{"Pair", [] { return Chain(2); }},
+        Kind{"Chain", [] { return Chain(30); }},
+        Kind{"LongChain", [] { return Chain(1100); }},
+        Kind{"HangingChain", [] { return HangingChain(9, false); }, false},
+        Kind{"ChainBetweenTwoPoints", [] { return HangingChain(9, true); },
+             false},
+        Kind{"Pendulum", [] { return HangingChain(1, false); }, false},
+        Kind{"LoadedChain", [] { return Loaded(Chain(10)); }, false},
+        Kind{"Tree", [] { return verification::BoxTree(31).model; }},
+        Kind{"LoadedTree",
+             [] { return Loaded(verification::BoxTree(7).model); }, false},
+        Kind{"Grid", [] { return verification::BoxGrid(5).model; }},
+        Kind{"Hinges", [] { return Hinges(6); }}),
+    [](const auto& kind) { return std::string(kind.param.name); });
+
+TEST(JointStepAllocationTest, AChainAllocatesNothing) {
+  TestRun run(Chain(20), 1e-3);
+  ASSERT_TRUE(run.Advance(3));
+  bool ok = true;
+  const AllocationCount before = AllocationsSoFar();
+  for (int i = 0; i < 20; ++i) ok = run.Step().ok() && ok;
+  const AllocationCount after = AllocationsSoFar();
+  EXPECT_TRUE(ok);
+  EXPECT_EQ(after.malloc, before.malloc);
+  EXPECT_EQ(after.new_, before.new_);
+}
+
+// That the check of the laws can fail.
+TEST(JointStepAccuracyTest, ALooseIterationDoesNotKeepTheEnergy) {
+  TestRun run(Chain(30),
+              IntegratorOptions{.time_step = 1e-3, .tolerance = 1e-3});
+  EXPECT_GT(run.Watch(200).energy().max_relative_error(), 100.0 * kKept);
+}
+
+}  // namespace
+}  // namespace emmy
