@@ -99,7 +99,11 @@ INSTANTIATE_TEST_SUITE_P(
              false},
         Kind{"Tangle", Tangle, 1e-3, 2, false},
         Kind{"TangleInLongSteps", Tangle, 0.05, 2, false},
-        Kind{"Chain", [] { return verification::BoxChain(8).model; }, 1e-2},
+        // Factorised once in every step; trees and grids keep theirs.
+        Kind{"Chain", [] { return verification::BoxChain(8).model; }, 1e-2, 2,
+             false},
+        Kind{"Tree", [] { return verification::BoxTree(15).model; }, 1e-2},
+        Kind{"Grid", [] { return verification::BoxGrid(4).model; }, 1e-2},
         Kind{"Net", [] { return verification::SpinningNet(8).model; }, 1e-2},
         Kind{"CableNet", [] { return verification::SlackCableNet(6).model; },
              1e-3},

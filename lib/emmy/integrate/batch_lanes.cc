@@ -43,7 +43,7 @@ void Load(const Extrapolation& from, Eigen::Index offset, int lane,
   for (size_t j = 0; j < to->kDifferences; ++j) {
     for (size_t i = 0; i < kEntries; ++i) {
       to->difference[j][i][lane] = from.differences(
-          static_cast<Eigen::Index>(j), offset + static_cast<Eigen::Index>(i));
+          offset + static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j));
     }
   }
 }
@@ -54,8 +54,8 @@ void Store(const ExtrapolationLanes<kEntries>& from, int lane,
   Gather(from.next, lane, to->next.data() + offset);
   for (size_t j = 0; j < from.kDifferences; ++j) {
     for (size_t i = 0; i < kEntries; ++i) {
-      to->differences(static_cast<Eigen::Index>(j),
-                      offset + static_cast<Eigen::Index>(i)) =
+      to->differences(offset + static_cast<Eigen::Index>(i),
+                      static_cast<Eigen::Index>(j)) =
           from.difference[j][i][lane];
     }
   }

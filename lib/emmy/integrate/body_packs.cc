@@ -204,8 +204,8 @@ void BodyPacks::Commit(size_t first, size_t last, int order, State& state,
         .compensation = {state.position.compensation.data() + at.position,
                          state.velocity.compensation.data() + at.velocity,
                          state.strain.compensation.data() + at.strain},
-        .differences = state.acceleration.differences.data() +
-                       Extrapolation::kOrders * at.velocity,
+        .differences = state.acceleration.differences.data() + at.velocity,
+        .order_stride = state.acceleration.differences.rows(),
         .next = state.acceleration.next.data() + at.velocity};
     CommitBody(scratch(slot / kLanes), iterate(slot / kLanes),
                static_cast<int>(slot % kLanes), time_step_, order, place,

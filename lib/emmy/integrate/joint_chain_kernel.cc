@@ -684,18 +684,17 @@ void CommitOneBody(const double* scratch, const double* iterate, int lane,
   }
   const ShortV dt = hn::Set(tag, time_step);
   for (int i = 0; i < 12; i += kShort) {
-    ShortV old[4];
     ShortV now[5];
-    double* const differences = place.differences + 4 * i;
-    hn::LoadInterleaved4(tag, differences, old[0], old[1], old[2], old[3]);
     now[0] = hn::Load(tag, dw + i) / dt;
     for (int j = 0; j < 4; ++j) {
-      now[j + 1] = now[j] - old[j];
+      double* const differences =
+          place.differences + j * place.order_stride + i;
+      now[j + 1] = now[j] - hn::LoadU(tag, differences);
+      hn::StoreU(now[j], tag, differences);
       double* const error = errors + kErrorLanes * j;
       hn::StoreU(hn::Max(hn::LoadU(tag, error), hn::Abs(now[j + 1])), tag,
                  error);
     }
-    hn::StoreInterleaved4(now[0], now[1], now[2], now[3], tag, differences);
     ShortV sum = hn::Zero(tag);
     for (int j = order; j >= 0; --j) sum = sum + now[j];
     hn::StoreU(sum, tag, place.next + i);

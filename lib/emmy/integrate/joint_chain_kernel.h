@@ -22,6 +22,8 @@
 #ifndef EMMY_INTEGRATE_JOINT_CHAIN_KERNEL_H_
 #define EMMY_INTEGRATE_JOINT_CHAIN_KERNEL_H_
 
+#include <cstddef>
+
 namespace emmy {
 
 inline constexpr int kPackLanes = 8;
@@ -146,7 +148,9 @@ void ChainFinish(const ChainGroup& group);
 struct BodyPlace {
   double* value[3] = {nullptr, nullptr, nullptr};  // q, w and ε,
   double* compensation[3] = {nullptr, nullptr, nullptr};
-  double* differences = nullptr;  // and the accelerations' (EXTRA-1).
+  // And the accelerations' (EXTRA-1), an order `order_stride` after the other.
+  double* differences = nullptr;
+  std::ptrdiff_t order_stride = 0;
   double* next = nullptr;
 };
 
