@@ -23,6 +23,12 @@ class RungeKuttaBody {
   void Step(double time_step);
   double Energy() const;  // [J]
 
+  // Body to inertial axes, (w, x, y, z); in body axes [rad/s].
+  const std::array<double, 4>& quaternion() const { return motion_.quaternion; }
+  const std::array<double, 3>& angular_velocity() const {
+    return motion_.angular_velocity;
+  }
+
  private:
   struct Motion {
     std::array<double, 4> quaternion;        // Body to inertial axes.

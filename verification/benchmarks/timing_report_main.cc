@@ -4,9 +4,12 @@
 #include <algorithm>
 #include <iostream>
 #include <string>
+#include <utility>
 
 #include "absl/strings/str_cat.h"
 #include "emmy/io/text_file.h"
+#include "verification/timing/peer_report.h"
+#include "verification/timing/timing_page.h"
 #include "verification/timing/timing_report.h"
 
 namespace emmy::verification {
@@ -16,6 +19,9 @@ struct Arguments {
   std::string input;
   std::string compare;
   std::string page;
+  std::string peers;
+  std::string figure;
+  std::string html;
 };
 
 // Replaces what stands between the markers of a Markdown page.
@@ -36,30 +42,72 @@ absl::Status WritePage(const std::string& path, const std::string& report) {
                          page->substr(end)));
 }
 
+// The report's tables and, where they are, the peers' and the figure, as a
+// page. A figure that was not drawn is left out.
+absl::Status WriteHtml(const Arguments& arguments, const TimingRun& run,
+                       const std::string& report, const std::string& peers) {
+  TimingPageParts parts;
+  parts.report = report;
+  parts.peers = peers;
+  if (!arguments.figure.empty()) {
+    absl::StatusOr<std::string> svg =
+        ReadTextFile(arguments.figure + ".svg", size_t{1} << 24);
+    absl::StatusOr<std::string> csv =
+        ReadTextFile(arguments.figure + ".csv", size_t{1} << 24);
+    if (svg.ok() && csv.ok()) {
+      parts.svg = *std::move(svg);
+      parts.csv = *std::move(csv);
+    }
+  }
+  return WriteTextFile(arguments.html, TimingPage(run, parts));
+}
+
+bool Complete(const TimingRun& run) {
+  return std::none_of(
+      run.timings.begin(), run.timings.end(),
+      [](const Timing& timing) { return !timing.error.empty(); });
+}
+
 int Report(const Arguments& arguments) {
   const absl::StatusOr<TimingRun> now = ReadTimings(arguments.input);
   if (!now.ok()) {
     std::cerr << now.status().message() << '\n';
     return 2;
   }
+  std::string peers;
+  if (!arguments.peers.empty()) {
+    const absl::StatusOr<TimingRun> others = ReadTimings(arguments.peers);
+    if (!others.ok()) {
+      std::cerr << others.status().message() << '\n';
+      return 2;
+    }
+    peers = absl::StrCat("\n", PeerReport(*others));
+  }
   const std::string report = TimingReport(*now);
-  std::cout << report;
+  std::string comparison;
   if (!arguments.compare.empty()) {
     const absl::StatusOr<TimingRun> before = ReadTimings(arguments.compare);
     if (!before.ok()) {
       std::cerr << before.status().message() << '\n';
       return 2;
     }
-    std::cout << "\n### Against " << arguments.compare << "\n\n"
-              << CompareTimings(*before, *now);
+    comparison = absl::StrCat("\n### Against ", arguments.compare, "\n\n",
+                              CompareTimings(*before, *now));
   }
-  const bool complete =
-      std::none_of(now->timings.begin(), now->timings.end(),
-                   [](const Timing& timing) { return !timing.error.empty(); });
+  std::cout << report << peers << comparison;
+  if (!arguments.html.empty()) {
+    const absl::Status written =
+        WriteHtml(arguments, *now, report + comparison, peers);
+    if (!written.ok()) {
+      std::cerr << written.message() << '\n';
+      return 2;
+    }
+  }
+  const bool complete = Complete(*now);
   if (!arguments.page.empty() && !complete) {
     std::cerr << arguments.page << ": not written, since a benchmark failed\n";
   } else if (!arguments.page.empty()) {
-    const absl::Status written = WritePage(arguments.page, report);
+    const absl::Status written = WritePage(arguments.page, report + peers);
     if (!written.ok()) {
       std::cerr << written.message() << '\n';
       return 2;
@@ -84,6 +132,14 @@ int main(int argc, char** argv) {
       ->type_name("FILE");
   app.add_option("--page", arguments.page,
                  "A Markdown page between whose markers the report is put")
+      ->type_name("FILE");
+  app.add_option("--peers", arguments.peers,
+                 "What emmy_peer_benchmark wrote: a table with other engines")
+      ->type_name("FILE");
+  app.add_option("--figure", arguments.figure,
+                 "Path without ending of the figure of emmy_work_precision")
+      ->type_name("PATH");
+  app.add_option("--html", arguments.html, "A page with all of it, to write")
       ->type_name("FILE");
   app.footer(
       "Exit status: 0 all benchmarks have a time; 1 one failed; 2 bad input.");

@@ -47,6 +47,7 @@ double Median(std::vector<double> values) {
 struct Samples {
   std::vector<double> times;
   std::map<std::string, std::vector<double>> counters;
+  std::string label;
   std::string error;
 };
 
@@ -61,6 +62,7 @@ std::string PlainName(const std::string& name) {
 }
 
 void AddRow(const Json& row, Samples* samples) {
+  samples->label = row.value("label", "");
   if (row.value("error_occurred", false)) {
     samples->error = row.value("error_message", "failed");
     return;
@@ -113,6 +115,7 @@ TimingRun Collect(const Json& json) {
     Timing& timing = run.timings.emplace_back();
     timing.name = name;
     timing.error = samples.error;
+    timing.label = samples.label;
     timing.repetitions = static_cast<int>(samples.times.size());
     timing.median = Median(samples.times);
     if (!samples.times.empty()) {

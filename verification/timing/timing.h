@@ -21,6 +21,7 @@ struct Timing {
   double spread = 0.0;
   int repetitions = 0;
   std::map<std::string, double> counters;  // Medians.
+  std::string label;                       // What was set; else "".
   std::string error;                       // Why there is no time; else "".
 };
 

@@ -13,12 +13,6 @@ namespace {
 
 constexpr char kYardstick[] = "one_body/runge_kutta";
 
-std::string TimeText(double nanoseconds) {
-  if (nanoseconds < 1e3) return absl::StrFormat("%.0f ns", nanoseconds);
-  if (nanoseconds < 1e6) return absl::StrFormat("%.3g us", 1e-3 * nanoseconds);
-  return absl::StrFormat("%.3g ms", 1e-6 * nanoseconds);
-}
-
 // "–" if the benchmark has no such counter.
 std::string CounterText(const Timing& timing, const std::string& name,
                         bool is_error) {
@@ -28,9 +22,11 @@ std::string CounterText(const Timing& timing, const std::string& name,
                   : absl::StrFormat("%.3g", counter->second);
 }
 
-std::string RatioRows(const TimingRun& run) {
+}  // namespace
+
+std::string RatioTable(const TimingRun& run, const std::vector<Ratio>& ratios) {
   std::string text = "| what | ratio | target | |\n| --- | --- | --- | --- |\n";
-  for (const Ratio& ratio : Ratios()) {
+  for (const Ratio& ratio : ratios) {
     const Timing* numerator = run.Find(ratio.numerator);
     const Timing* denominator = run.Find(ratio.denominator);
     const char* const sign = ratio.at_least ? ">=" : "<=";
@@ -48,6 +44,8 @@ std::string RatioRows(const TimingRun& run) {
   }
   return text;
 }
+
+namespace {
 
 std::string GrowthRows(const TimingRun& run) {
   std::string text =
@@ -95,6 +93,12 @@ std::string TimeRows(const TimingRun& run) {
 }
 
 }  // namespace
+
+std::string TimeText(double nanoseconds) {
+  if (nanoseconds < 1e3) return absl::StrFormat("%.0f ns", nanoseconds);
+  if (nanoseconds < 1e6) return absl::StrFormat("%.3g us", 1e-3 * nanoseconds);
+  return absl::StrFormat("%.3g ms", 1e-6 * nanoseconds);
+}
 
 const std::vector<Ratio>& Ratios() {
   static const std::vector<Ratio>* const ratios = new std::vector<Ratio>{
@@ -174,8 +178,9 @@ std::string TimingReport(const TimingRun& run) {
       "largest less the smallest over the median. A run whose laws are not "
       "kept has no time.\n\n",
       run.date, run.processor, run.program);
-  absl::StrAppend(&text, "### Ratios\n\n", RatioRows(run), "\n### Growth\n\n",
-                  GrowthRows(run), "\n### Times\n\n", TimeRows(run));
+  absl::StrAppend(&text, "### Ratios\n\n", RatioTable(run, Ratios()),
+                  "\n### Growth\n\n", GrowthRows(run), "\n### Times\n\n",
+                  TimeRows(run));
   return text;
 }
 

@@ -22,6 +22,9 @@ struct Ratio {
 
 const std::vector<Ratio>& Ratios();
 
+// A Markdown table of them, with what was not measured.
+std::string RatioTable(const TimingRun& run, const std::vector<Ratio>& ratios);
+
 // p of time = C size^p over benchmarks of several sizes, and what it should be
 // at most.
 struct Growth {
@@ -31,6 +34,9 @@ struct Growth {
 };
 
 const std::vector<Growth>& Growths();
+
+// "64 ns", "7.59 us", "43.5 ms".
+std::string TimeText(double nanoseconds);
 
 // Markdown: tables of ratios, growth and times, and the environment.
 std::string TimingReport(const TimingRun& run);

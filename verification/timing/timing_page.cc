@@ -1,0 +1,78 @@
+#include "verification/timing/timing_page.h"
+
+#include "absl/strings/str_cat.h"
+#include "verification/report/embedded.h"
+#include "verification/report/html_text.h"
+#include "verification/timing/markdown_html.h"
+
+namespace emmy::verification {
+namespace {
+
+// Of what a report's tables say.
+size_t Count(const std::string& text, const std::string& word) {
+  size_t count = 0;
+  for (size_t at = text.find(word); at != std::string::npos;
+       at = text.find(word, at + word.size())) {
+    ++count;
+  }
+  return count;
+}
+
+std::string Head(const std::string& title) {
+  return absl::StrCat(
+      "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
+      "<meta name=\"viewport\" content=\"width=device-width, "
+      "initial-scale=1\">\n<meta name=\"color-scheme\" content=\"light dark\">"
+      "\n<meta http-equiv=\"Content-Security-Policy\" content=\"default-src "
+      "&#39;none&#39;; img-src data:; style-src &#39;unsafe-inline&#39;\">\n"
+      "<link rel=\"icon\" href=\"data:,\">\n<title>Emmy: ",
+      title, "</title>\n<style>\n",
+      absl::string_view(EmbeddedStyle().data(), EmbeddedStyle().size()),
+      "</style>\n</head>\n");
+}
+
+std::string WorkPrecision(const TimingPageParts& parts) {
+  if (parts.svg.empty()) return "";
+  return absl::StrCat(
+      "<section id=\"work-precision\">\n<h2>Work and precision</h2>\n<figure>"
+      "<img alt=\"Error of the angular velocity at 10 s against processor time "
+      "per simulated second\" src=\"",
+      DataUri("image/svg+xml", parts.svg),
+      "\">\n<figcaption>The paper's box: error of the angular velocity at 10 s "
+      "against the closed-form motion, over the processor time of a simulated "
+      "second; along a curve the step is halved from point to point. <a "
+      "class=\"data\" download=\"work_precision.csv\" href=\"",
+      DataUri("text/csv", parts.csv),
+      "\">data (CSV)</a></figcaption></figure>\n</section>\n");
+}
+
+}  // namespace
+
+std::string TimingPage(const TimingRun& run, const TimingPageParts& parts) {
+  const std::string tables = parts.report + parts.peers;
+  const size_t met = Count(tables, "| met |");
+  const size_t missed = Count(tables, "| **missed** |");
+  const size_t unmeasured = Count(tables, "| not measured |");
+  const size_t failed = Count(tables, "| failed: ");
+  const std::string title =
+      absl::StrCat(met, " of ", met + missed, " targets met");
+  return absl::StrCat(
+      Head(title), "<body>\n<header class=\"verdict ",
+      missed == 0 && failed == 0 && met > 0 ? "green" : "red",
+      "\">\n<p class=\"product\">Emmy, timing report</p>\n<h1>", title,
+      "</h1>\n<ul>\n<li><strong>", missed,
+      "</strong> missed</li>\n<li><strong>", unmeasured,
+      "</strong> not measured</li>\n<li><strong>", failed,
+      "</strong> without a time</li>\n<li><time>", EscapeHtml(run.date),
+      "</time></li>\n</ul>\n</header>\n<main>\n<section id=\"times\">\n",
+      MarkdownHtml(parts.report), "</section>\n", WorkPrecision(parts),
+      "<section id=\"peers\">\n", MarkdownHtml(parts.peers),
+      "</section>\n<section id=\"environment\">\n<h2>Environment</h2>\n<dl>\n"
+      "<dt>processor</dt><dd>",
+      EscapeHtml(run.processor), "</dd>\n<dt>program</dt><dd>",
+      EscapeHtml(run.program), "</dd>\n<dt>date</dt><dd>", EscapeHtml(run.date),
+      "</dd>\n</dl>\n</section>\n</main>\n</body>\n"
+      "</html>\n");
+}
+
+}  // namespace emmy::verification
