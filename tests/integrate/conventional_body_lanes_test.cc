@@ -164,6 +164,33 @@ TEST_F(ConventionalBodyLanesTest, ConvergesAsNewtonsMethodDoes) {
   }
 }
 
+// A start value that is off by 10⁻⁸ is corrected once, and what (CRBL-2) says
+// is left: an inexact Jacobian, here by some (½ |W| Δt)², would leave 10⁻¹².
+TEST_F(ConventionalBodyLanesTest, OneCorrectionLeavesWhatTheBoundSays) {
+  constexpr double kLargeStep = 0.1;
+  TestRun run(Boxes(), kLargeStep);
+  const ModelBody& body = run.model().bodies()[0];
+  const ConventionalBodyLanes lanes(*body.conventional(), kLargeStep, {});
+  ConventionalLanesIncrement exact;
+  State state = run.state();
+  ASSERT_EQ(SolveInLanes(lanes, body, state, &exact).termination,
+            Termination::kConverged);
+  const Eigen::Map<const Vector3d> dw(exact.angular_velocity + 1);
+  state.acceleration.next.segment<3>(body.velocity_offset + 3) =
+      (1.0 + 1e-10) / kLargeStep * dw;
+  ConventionalLanesIncrement corrected;
+  const BodyStepResult result = SolveInLanes(lanes, body, state, &corrected);
+  ASSERT_EQ(result.termination, Termination::kConverged);
+  EXPECT_EQ(result.iterations, 1);
+  for (int k = 1; k < 4; ++k) {
+    EXPECT_LE(
+        std::abs((corrected.angular_velocity[k] - exact.angular_velocity[k]) +
+                 (corrected.angular_velocity_low[k] -
+                  exact.angular_velocity_low[k])),
+        0x1p-19 * RoundoffBound(1, dw.cwiseAbs().maxCoeff()));
+  }
+}
+
 TEST_F(ConventionalBodyLanesTest, ABodyThatTurnsAboutAnAxisKeepsItsVelocity) {
   RigidBodyDescription box = PaperBox(Formulation::kConventional);
   box.angular_velocity = {0.0, 0.0, 2.0};
