@@ -249,9 +249,6 @@ HWY_INLINE double Sum(const Lanes& a) {
   return (lanes[0] + lanes[1]) + (lanes[2] + lanes[3]);
 }
 
-// The largest |component| of each vector.
-HWY_INLINE Lanes Sizes(const Vectors& a) { return MaxAbs(a); }
-
 BodyStepResult SolveLined(const Constants& constants, const BodyState& body,
                           const NodeState& nodes, LinedIncrement* increment) {
   constexpr double kUnitRoundoff = std::numeric_limits<double>::epsilon() / 2.0;
@@ -380,9 +377,10 @@ BodyStepResult SolveLined(const Constants& constants, const BodyState& body,
     node_half_dw = node_half_dw - half * node_correction;
 
     result.iterations = i;
-    result.correction = Largest(Max(Sizes(correction), Sizes(node_correction)));
-    const Lanes rates = Max(Max(Sizes(mean_w), Sizes(node_mean_w)),
-                            Max(Sizes(w0), Sizes(node_w0)));
+    result.correction =
+        Largest(Max(MaxAbs(correction), MaxAbs(node_correction)));
+    const Lanes rates = Max(Max(MaxAbs(mean_w), MaxAbs(node_mean_w)),
+                            Max(MaxAbs(w0), MaxAbs(node_w0)));
     const double rate = Largest(rates);
     bool done = false;
     if (constants.options.tolerance.has_value()) {
@@ -394,8 +392,8 @@ BodyStepResult SolveLined(const Constants& constants, const BodyState& body,
       constexpr double kNear = 1e5;
       if (result.correction <= kNear * rate_floor) {
         const Lanes size =
-            Sizes(inertia) + (Sizes(force) + Sizes(pull_on_body));
-        const Lanes node_size = Sizes(node_inertia) + Sizes(pull_on_node);
+            MaxAbs(inertia) + (MaxAbs(force) + MaxAbs(pull_on_body));
+        const Lanes node_size = MaxAbs(node_inertia) + MaxAbs(pull_on_node);
         const Lanes square = size * size;
         const Lanes node_square = node_size * node_size;
         const auto floor_of = [&](const Lanes& a, const Lanes& b) {
@@ -426,7 +424,7 @@ BodyStepResult SolveLined(const Constants& constants, const BodyState& body,
     if (done) {
       // A step that changes velocities by more than themselves is looked at
       // more closely by CoupledStep: it may have run away.
-      const double change = Largest(Max(Sizes(half_dw), Sizes(node_half_dw)));
+      const double change = Largest(Max(MaxAbs(half_dw), MaxAbs(node_half_dw)));
       if (!(change <= 0.25 * rate)) return result;
       break;
     }
