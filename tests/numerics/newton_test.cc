@@ -60,6 +60,34 @@ TEST(StagnationMonitorTest, OneFastRatioDoesNotHideASlowPart) {
   }
 }
 
+// The fourth is rounding, twice the floor; without it 1e-18 would have come,
+// and 1e-23 next.
+TEST(StagnationMonitorTest, AFastSequenceNeedNotConfirmItsRounding) {
+  StagnationMonitor monitor;
+  EXPECT_FALSE(monitor.Update(1e-4, kFloor));
+  EXPECT_FALSE(monitor.Update(1e-9, kFloor));
+  EXPECT_FALSE(monitor.Update(1e-13, kFloor));
+  EXPECT_TRUE(monitor.Update(2e-16, kFloor));
+}
+
+// 1e-15 should have come: what is at the floor may not be rounding alone.
+TEST(StagnationMonitorTest, RoundingDoesNotEndASlowSequence) {
+  StagnationMonitor monitor;
+  EXPECT_FALSE(monitor.Update(1e-12, kFloor));
+  EXPECT_FALSE(monitor.Update(1e-13, kFloor));
+  EXPECT_FALSE(monitor.Update(1e-14, kFloor));
+  EXPECT_FALSE(monitor.Update(1e-16, kFloor));
+}
+
+// Ten floors are not rounding, whatever was to come.
+TEST(StagnationMonitorTest, AMemberAboveRoundingIsNotExplainedAway) {
+  StagnationMonitor monitor;
+  EXPECT_FALSE(monitor.Update(1e-4, kFloor));
+  EXPECT_FALSE(monitor.Update(1e-9, kFloor));
+  EXPECT_FALSE(monitor.Update(1e-13, kFloor));
+  EXPECT_FALSE(monitor.Update(1e-15, kFloor));
+}
+
 TEST(StagnationMonitorTest, HowMuchMayBeLeftIsSaidAtTheStart) {
   StagnationMonitor monitor(/*negligible=*/0x1p-6);
   EXPECT_FALSE(monitor.Update(1e-7, kFloor));

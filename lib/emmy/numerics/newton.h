@@ -57,6 +57,10 @@ inline constexpr int kStagnationPatience = 20;
 // its root: 2⁻¹⁰ leaves it below rounding for a million steps. How fast it
 // shrinks is the slower of the last two ratios: one alone may be that of a part
 // which the first correction removes, with a slower part hidden below it.
+//
+// A member at the floor is rounding for the most part, and neither its size nor
+// its ratio says what is left. The members before it do: it should have been
+// their last times their rate, and the next that times the rate again.
 class StagnationMonitor {
  public:
   explicit StagnationMonitor(double negligible = 0x1p-10)
@@ -65,17 +69,23 @@ class StagnationMonitor {
   // True once the sequence has stopped shrinking near `floor`, and from then
   // on, so that several sequences may stagnate at different iterations.
   bool Update(double correction, double floor) {
-    constexpr double kNear = 1e3;   // Where "stops shrinking" may be judged.
-    constexpr double kRatio = 0.5;  // Less than one bit gained.
+    constexpr double kNear = 1e3;      // Where "stops shrinking" may be judged.
+    constexpr double kRounding = 4.0;  // Where a member is rounding.
+    constexpr double kRatio = 0.5;     // Less than one bit gained.
     const double ratio = correction / previous_;
-    const double slower = std::max(ratio, previous_ratio_);
+    const double rate = std::max(ratio, previous_ratio_);
     const bool stopped = correction <= kNear * floor && !(ratio < kRatio);
     const bool vanishes =
-        slower < kRatio && correction * slower <= negligible_ * floor;
+        rate < kRatio && correction * rate <= negligible_ * floor;
+    const bool vanished =
+        correction <= kRounding * floor && rate_ < kRatio &&
+        previous_ * rate_ * rate_ <= negligible_ * floor;
     // The first member has no ratio, and nothing vanishes by it.
     previous_ratio_ = std::isinf(previous_) ? previous_ : ratio;
     previous_ = correction;
-    stagnant_ = stagnant_ || correction == 0.0 || stopped || vanishes;
+    rate_ = rate;
+    stagnant_ =
+        stagnant_ || correction == 0.0 || stopped || vanishes || vanished;
     return stagnant_;
   }
 
@@ -84,6 +94,7 @@ class StagnationMonitor {
   bool stagnant_ = false;
   double previous_ = std::numeric_limits<double>::infinity();
   double previous_ratio_ = std::numeric_limits<double>::infinity();
+  double rate_ = std::numeric_limits<double>::infinity();  // The slower of two.
 };
 
 }  // namespace emmy
