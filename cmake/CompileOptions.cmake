@@ -36,6 +36,18 @@ add_library(emmy_optimized INTERFACE)
 target_compile_options(emmy_optimized INTERFACE
   $<$<CONFIG:Release>:-O3>)
 
+# emmy_lanes: for files that include Highway, linked PRIVATE. On 64-bit Arm only
+# Neon, which all have: vectors of a length unknown to the compiler (SVE) cannot
+# be members of a struct. Highway compiles its functions for the encryption
+# extension too, by a pragma that g++ does not apply to constructors it writes
+# itself; they could not inline those functions. No arithmetic uses it.
+add_library(emmy_lanes INTERFACE)
+if(CMAKE_SYSTEM_PROCESSOR MATCHES "^(aarch64|arm64)$")
+  target_compile_definitions(emmy_lanes INTERFACE HWY_COMPILE_ONLY_STATIC)
+  target_compile_options(emmy_lanes INTERFACE
+    $<$<CXX_COMPILER_ID:GNU>:-march=armv8-a+crypto>)
+endif()
+
 # emmy_warnings: for our own files only, linked PRIVATE.
 add_library(emmy_warnings INTERFACE)
 target_compile_options(emmy_warnings INTERFACE
