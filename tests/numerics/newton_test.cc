@@ -63,16 +63,25 @@ TEST(StagnationMonitorTest, OneFastRatioDoesNotHideASlowPart) {
 // The fourth is rounding, twice the floor; without it 1e-18 would have come,
 // and 1e-23 next.
 TEST(StagnationMonitorTest, AFastSequenceNeedNotConfirmItsRounding) {
-  StagnationMonitor monitor;
+  StagnationMonitor monitor(0x1p-10, /*explains_rounding=*/true);
   EXPECT_FALSE(monitor.Update(1e-4, kFloor));
   EXPECT_FALSE(monitor.Update(1e-9, kFloor));
   EXPECT_FALSE(monitor.Update(1e-13, kFloor));
   EXPECT_TRUE(monitor.Update(2e-16, kFloor));
 }
 
+// Nor is it explained where that was not asked for.
+TEST(StagnationMonitorTest, ALawIsSeenToHold) {
+  StagnationMonitor monitor;
+  EXPECT_FALSE(monitor.Update(1e-4, kFloor));
+  EXPECT_FALSE(monitor.Update(1e-9, kFloor));
+  EXPECT_FALSE(monitor.Update(1e-13, kFloor));
+  EXPECT_FALSE(monitor.Update(2e-16, kFloor));
+}
+
 // 1e-15 should have come: what is at the floor may not be rounding alone.
 TEST(StagnationMonitorTest, RoundingDoesNotEndASlowSequence) {
-  StagnationMonitor monitor;
+  StagnationMonitor monitor(0x1p-10, /*explains_rounding=*/true);
   EXPECT_FALSE(monitor.Update(1e-12, kFloor));
   EXPECT_FALSE(monitor.Update(1e-13, kFloor));
   EXPECT_FALSE(monitor.Update(1e-14, kFloor));
@@ -81,7 +90,7 @@ TEST(StagnationMonitorTest, RoundingDoesNotEndASlowSequence) {
 
 // Ten floors are not rounding, whatever was to come.
 TEST(StagnationMonitorTest, AMemberAboveRoundingIsNotExplainedAway) {
-  StagnationMonitor monitor;
+  StagnationMonitor monitor(0x1p-10, /*explains_rounding=*/true);
   EXPECT_FALSE(monitor.Update(1e-4, kFloor));
   EXPECT_FALSE(monitor.Update(1e-9, kFloor));
   EXPECT_FALSE(monitor.Update(1e-13, kFloor));

@@ -59,12 +59,16 @@ inline constexpr int kStagnationPatience = 20;
 // which the first correction removes, with a slower part hidden below it.
 //
 // A member at the floor is rounding for the most part, and neither its size nor
-// its ratio says what is left. The members before it do: it should have been
-// their last times their rate, and the next that times the rate again.
+// its ratio says what is left. Where asked, the members before it do: it should
+// have been their last times their rate, and the next that times the rate
+// again. A part that was hidden below them all the time and shrinks slowly is
+// missed, so that what a law forbids to remain is not judged like this, but
+// seen.
 class StagnationMonitor {
  public:
-  explicit StagnationMonitor(double negligible = 0x1p-10)
-      : negligible_(negligible) {}
+  explicit StagnationMonitor(double negligible = 0x1p-10,
+                             bool explains_rounding = false)
+      : negligible_(negligible), explains_rounding_(explains_rounding) {}
 
   // True once the sequence has stopped shrinking near `floor`, and from then
   // on, so that several sequences may stagnate at different iterations.
@@ -77,9 +81,9 @@ class StagnationMonitor {
     const bool stopped = correction <= kNear * floor && !(ratio < kRatio);
     const bool vanishes =
         rate < kRatio && correction * rate <= negligible_ * floor;
-    const bool vanished =
-        correction <= kRounding * floor && rate_ < kRatio &&
-        previous_ * rate_ * rate_ <= negligible_ * floor;
+    const bool vanished = explains_rounding_ &&
+                          correction <= kRounding * floor && rate_ < kRatio &&
+                          previous_ * rate_ * rate_ <= negligible_ * floor;
     // The first member has no ratio, and nothing vanishes by it.
     previous_ratio_ = std::isinf(previous_) ? previous_ : ratio;
     previous_ = correction;
@@ -91,6 +95,7 @@ class StagnationMonitor {
 
  private:
   double negligible_;
+  bool explains_rounding_;
   bool stagnant_ = false;
   double previous_ = std::numeric_limits<double>::infinity();
   double previous_ratio_ = std::numeric_limits<double>::infinity();
