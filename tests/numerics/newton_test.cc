@@ -3,17 +3,23 @@
 #include <gtest/gtest.h>
 
 #include <limits>
+#include <vector>
 
 namespace emmy {
 namespace {
 
 constexpr double kFloor = 1e-16;
 
-TEST(StagnationMonitorTest, FirstCorrectionsThatGrowAreNotStagnation) {
-  StagnationMonitor monitor;
-  for (const double correction : {1.0, 2.0, 5.0, 3.0, 4.0, 4.0, 1.0}) {
+// None of the corrections ends the iteration.
+void ExpectGoesOn(StagnationMonitor monitor,
+                  const std::vector<double>& corrections) {
+  for (const double correction : corrections) {
     EXPECT_FALSE(monitor.Update(correction, kFloor)) << correction;
   }
+}
+
+TEST(StagnationMonitorTest, FirstCorrectionsThatGrowAreNotStagnation) {
+  ExpectGoesOn(StagnationMonitor(), {1.0, 2.0, 5.0, 3.0, 4.0, 4.0, 1.0});
 }
 
 TEST(StagnationMonitorTest, SlowConvergenceFarAboveTheFloorIsNotStagnation) {
@@ -26,10 +32,7 @@ TEST(StagnationMonitorTest, SlowConvergenceFarAboveTheFloorIsNotStagnation) {
 }
 
 TEST(StagnationMonitorTest, ShrinkingNearTheFloorGoesOn) {
-  StagnationMonitor monitor;
-  for (const double correction : {1e-10, 1e-13, 1e-14, 1e-15, 1e-16, 1e-17}) {
-    EXPECT_FALSE(monitor.Update(correction, kFloor)) << correction;
-  }
+  ExpectGoesOn(StagnationMonitor(), {1e-10, 1e-13, 1e-14, 1e-15, 1e-16, 1e-17});
 }
 
 TEST(StagnationMonitorTest, GainingLessThanABitNearTheFloorIsStagnation) {
@@ -72,29 +75,19 @@ TEST(StagnationMonitorTest, AFastSequenceNeedNotConfirmItsRounding) {
 
 // Nor is it explained where that was not asked for.
 TEST(StagnationMonitorTest, ALawIsSeenToHold) {
-  StagnationMonitor monitor;
-  EXPECT_FALSE(monitor.Update(1e-4, kFloor));
-  EXPECT_FALSE(monitor.Update(1e-9, kFloor));
-  EXPECT_FALSE(monitor.Update(1e-13, kFloor));
-  EXPECT_FALSE(monitor.Update(2e-16, kFloor));
+  ExpectGoesOn(StagnationMonitor(), {1e-4, 1e-9, 1e-13, 2e-16});
 }
 
 // 1e-15 should have come: what is at the floor may not be rounding alone.
 TEST(StagnationMonitorTest, RoundingDoesNotEndASlowSequence) {
-  StagnationMonitor monitor(0x1p-10, /*explains_rounding=*/true);
-  EXPECT_FALSE(monitor.Update(1e-12, kFloor));
-  EXPECT_FALSE(monitor.Update(1e-13, kFloor));
-  EXPECT_FALSE(monitor.Update(1e-14, kFloor));
-  EXPECT_FALSE(monitor.Update(1e-16, kFloor));
+  ExpectGoesOn(StagnationMonitor(0x1p-10, /*explains_rounding=*/true),
+               {1e-12, 1e-13, 1e-14, 1e-16});
 }
 
 // Ten floors are not rounding, whatever was to come.
 TEST(StagnationMonitorTest, AMemberAboveRoundingIsNotExplainedAway) {
-  StagnationMonitor monitor(0x1p-10, /*explains_rounding=*/true);
-  EXPECT_FALSE(monitor.Update(1e-4, kFloor));
-  EXPECT_FALSE(monitor.Update(1e-9, kFloor));
-  EXPECT_FALSE(monitor.Update(1e-13, kFloor));
-  EXPECT_FALSE(monitor.Update(1e-15, kFloor));
+  ExpectGoesOn(StagnationMonitor(0x1p-10, /*explains_rounding=*/true),
+               {1e-4, 1e-9, 1e-13, 1e-15});
 }
 
 TEST(StagnationMonitorTest, HowMuchMayBeLeftIsSaidAtTheStart) {

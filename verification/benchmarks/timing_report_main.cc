@@ -6,6 +6,8 @@
 #include <string>
 #include <utility>
 
+#include "absl/status/status.h"
+#include "absl/status/statusor.h"
 #include "absl/strings/str_cat.h"
 #include "emmy/io/text_file.h"
 #include "verification/timing/peer_report.h"
@@ -68,29 +70,22 @@ bool Complete(const TimingRun& run) {
       [](const Timing& timing) { return !timing.error.empty(); });
 }
 
-int Report(const Arguments& arguments) {
+// Whether every benchmark was timed; a status if a file cannot be read or
+// written.
+absl::StatusOr<bool> Report(const Arguments& arguments) {
   const absl::StatusOr<TimingRun> now = ReadTimings(arguments.input);
-  if (!now.ok()) {
-    std::cerr << now.status().message() << '\n';
-    return 2;
-  }
+  if (!now.ok()) return now.status();
   std::string peers;
   if (!arguments.peers.empty()) {
     const absl::StatusOr<TimingRun> others = ReadTimings(arguments.peers);
-    if (!others.ok()) {
-      std::cerr << others.status().message() << '\n';
-      return 2;
-    }
+    if (!others.ok()) return others.status();
     peers = absl::StrCat("\n", PeerReport(*others));
   }
   const std::string report = TimingReport(*now);
   std::string comparison;
   if (!arguments.compare.empty()) {
     const absl::StatusOr<TimingRun> before = ReadTimings(arguments.compare);
-    if (!before.ok()) {
-      std::cerr << before.status().message() << '\n';
-      return 2;
-    }
+    if (!before.ok()) return before.status();
     comparison = absl::StrCat("\n### Against ", arguments.compare, "\n\n",
                               CompareTimings(*before, *now));
   }
@@ -98,22 +93,16 @@ int Report(const Arguments& arguments) {
   if (!arguments.html.empty()) {
     const absl::Status written =
         WriteHtml(arguments, *now, report + comparison, peers);
-    if (!written.ok()) {
-      std::cerr << written.message() << '\n';
-      return 2;
-    }
+    if (!written.ok()) return written;
   }
   const bool complete = Complete(*now);
   if (!arguments.page.empty() && !complete) {
     std::cerr << arguments.page << ": not written, since a benchmark failed\n";
   } else if (!arguments.page.empty()) {
     const absl::Status written = WritePage(arguments.page, report + peers);
-    if (!written.ok()) {
-      std::cerr << written.message() << '\n';
-      return 2;
-    }
+    if (!written.ok()) return written;
   }
-  return complete ? 0 : 1;
+  return complete;
 }
 
 }  // namespace
@@ -144,5 +133,10 @@ int main(int argc, char** argv) {
   app.footer(
       "Exit status: 0 all benchmarks have a time; 1 one failed; 2 bad input.");
   CLI11_PARSE(app, argc, argv);
-  return emmy::verification::Report(arguments);
+  const absl::StatusOr<bool> complete = emmy::verification::Report(arguments);
+  if (!complete.ok()) {
+    std::cerr << complete.status().message() << '\n';
+    return 2;
+  }
+  return *complete ? 0 : 1;
 }

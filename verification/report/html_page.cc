@@ -31,20 +31,6 @@ std::vector<std::string> Groups(const std::vector<Outcome>& outcomes) {
   return groups;
 }
 
-std::string Head(const std::string& verdict) {
-  return absl::StrCat(
-      "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
-      "<meta name=\"viewport\" content=\"width=device-width, "
-      "initial-scale=1\">\n<meta name=\"color-scheme\" content=\"light dark\">"
-      "\n<meta http-equiv=\"Content-Security-Policy\" content=\"default-src "
-      "&#39;none&#39;; img-src data:; style-src &#39;unsafe-inline&#39;; "
-      "script-src &#39;unsafe-inline&#39;\">\n<link rel=\"icon\" "
-      "href=\"data:,\">\n<title>Emmy: ",
-      verdict, "</title>\n<style>\n",
-      absl::string_view(EmbeddedStyle().data(), EmbeddedStyle().size()),
-      "</style>\n</head>\n");
-}
-
 std::string VerdictHeader(const std::vector<Outcome>& outcomes,
                           const Environment& environment,
                           const std::string& verdict) {
@@ -195,9 +181,10 @@ std::string HtmlPage(const std::vector<Outcome>& outcomes,
       : failed == 0
           ? absl::StrCat("All ", outcomes.size(), " claims hold")
           : absl::StrCat(failed, " of ", outcomes.size(), " claims failed");
-  std::string html = absl::StrCat(
-      Head(verdict), "<body>\n", VerdictHeader(outcomes, environment, verdict),
-      "<main>\n", Contents(outcomes), Failures(outcomes), Table(outcomes));
+  std::string html =
+      absl::StrCat(HtmlHead(verdict, /*has_script=*/true), "<body>\n",
+                   VerdictHeader(outcomes, environment, verdict), "<main>\n",
+                   Contents(outcomes), Failures(outcomes), Table(outcomes));
   for (const std::string& group : Groups(outcomes)) {
     html += GroupSection(group, outcomes, images);
   }

@@ -6,6 +6,8 @@
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_format.h"
 #include "absl/strings/str_replace.h"
+#include "absl/strings/string_view.h"
+#include "verification/report/embedded.h"
 
 namespace emmy::verification {
 
@@ -65,6 +67,20 @@ std::string Base64(std::string_view bytes) {
 std::string DataUri(std::string_view type, std::string_view bytes) {
   return absl::StrCat("data:", absl::string_view(type.data(), type.size()),
                       ";base64,", Base64(bytes));
+}
+
+std::string HtmlHead(std::string_view title, bool has_script) {
+  return absl::StrCat(
+      "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
+      "<meta name=\"viewport\" content=\"width=device-width, "
+      "initial-scale=1\">\n<meta name=\"color-scheme\" content=\"light dark\">"
+      "\n<meta http-equiv=\"Content-Security-Policy\" content=\"default-src "
+      "&#39;none&#39;; img-src data:; style-src &#39;unsafe-inline&#39;",
+      has_script ? "; script-src &#39;unsafe-inline&#39;" : "",
+      "\">\n<link rel=\"icon\" href=\"data:,\">\n<title>Emmy: ",
+      absl::string_view(title.data(), title.size()), "</title>\n<style>\n",
+      absl::string_view(EmbeddedStyle().data(), EmbeddedStyle().size()),
+      "</style>\n</head>\n");
 }
 
 }  // namespace emmy::verification

@@ -22,6 +22,10 @@ std::string Base64(std::string_view bytes);
 // "data:<type>;base64,…": `type` is a media type such as "image/svg+xml".
 std::string DataUri(std::string_view type, std::string_view bytes);
 
+// From the document type to </head>, with the report's style in it: a page that
+// loads nothing, "Emmy: <title>", and runs a script only if it `has_script`.
+std::string HtmlHead(std::string_view title, bool has_script);
+
 }  // namespace emmy::verification
 
 #endif  // EMMY_VERIFICATION_REPORT_HTML_TEXT_H_

@@ -1,7 +1,6 @@
 #include "verification/timing/timing_page.h"
 
 #include "absl/strings/str_cat.h"
-#include "verification/report/embedded.h"
 #include "verification/report/html_text.h"
 #include "verification/timing/markdown_html.h"
 
@@ -16,19 +15,6 @@ size_t Count(const std::string& text, const std::string& word) {
     ++count;
   }
   return count;
-}
-
-std::string Head(const std::string& title) {
-  return absl::StrCat(
-      "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
-      "<meta name=\"viewport\" content=\"width=device-width, "
-      "initial-scale=1\">\n<meta name=\"color-scheme\" content=\"light dark\">"
-      "\n<meta http-equiv=\"Content-Security-Policy\" content=\"default-src "
-      "&#39;none&#39;; img-src data:; style-src &#39;unsafe-inline&#39;\">\n"
-      "<link rel=\"icon\" href=\"data:,\">\n<title>Emmy: ",
-      title, "</title>\n<style>\n",
-      absl::string_view(EmbeddedStyle().data(), EmbeddedStyle().size()),
-      "</style>\n</head>\n");
 }
 
 std::string WorkPrecision(const TimingPageParts& parts) {
@@ -57,7 +43,7 @@ std::string TimingPage(const TimingRun& run, const TimingPageParts& parts) {
   const std::string title =
       absl::StrCat(met, " of ", met + missed, " targets met");
   return absl::StrCat(
-      Head(title), "<body>\n<header class=\"verdict ",
+      HtmlHead(title, /*has_script=*/false), "<body>\n<header class=\"verdict ",
       missed == 0 && failed == 0 && met > 0 ? "green" : "red",
       "\">\n<p class=\"product\">Emmy, timing report</p>\n<h1>", title,
       "</h1>\n<ul>\n<li><strong>", missed,
