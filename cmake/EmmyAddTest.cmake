@@ -27,21 +27,24 @@ if(EMMY_PRECOMPILE_TEST_HEADERS)
 endif()
 
 # emmy_add_test(<name> <source>... [LABELS <label>...] [LIBRARIES <target>...]
-#               [TIMEOUT <seconds>] [ARGUMENTS <argument>...] [LIBRARY_ONLY])
+#               [TIMEOUT <seconds>] [ARGUMENTS <argument>...]
+#               [WITHOUT_VERIFICATION | LIBRARY_ONLY])
 #
 # One GoogleTest program from all tests of one folder, because linking costs
 # more than compiling a further file. Without sources nothing is built, so a
 # folder may be added before its first test. `ctest -N` lists each test as
 # <name without emmy_ and _test>/<Suite>.<Test>; ctest -L selects by label.
 #
-# LIBRARY_ONLY: the test is of lib alone and is not linked to the verification,
-# which then need not be built: half of the time where every line is
-# instrumented. emmy_library_tests builds all of these, `ctest -L library` runs
-# them.
+# WITHOUT_VERIFICATION: the test is not linked to emmy_verification, which then
+# need not be built: half of the time where every line is instrumented, or
+# where another compiler runs only this test.
+#
+# LIBRARY_ONLY: likewise, and the test is of lib alone. emmy_library_tests builds
+# all of these, `ctest -L library` runs them.
 add_custom_target(emmy_library_tests)
 function(emmy_add_test name)
-  cmake_parse_arguments(PARSE_ARGV 1 arg "LIBRARY_ONLY" "TIMEOUT"
-    "LABELS;LIBRARIES;ARGUMENTS")
+  cmake_parse_arguments(PARSE_ARGV 1 arg "LIBRARY_ONLY;WITHOUT_VERIFICATION"
+    "TIMEOUT" "LABELS;LIBRARIES;ARGUMENTS")
   if(NOT arg_UNPARSED_ARGUMENTS)
     return()
   endif()
@@ -59,7 +62,7 @@ function(emmy_add_test name)
   _emmy_set_up_test(${name})
   if(arg_LIBRARY_ONLY)
     add_dependencies(emmy_library_tests ${name})
-  else()
+  elseif(NOT arg_WITHOUT_VERIFICATION)
     list(APPEND arg_LIBRARIES emmy_verification)
   endif()
   target_link_libraries(${name} PRIVATE ${arg_LIBRARIES})
