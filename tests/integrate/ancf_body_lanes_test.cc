@@ -1,14 +1,12 @@
 #include "emmy/integrate/ancf_body_lanes.h"
 
 #include <gtest/gtest.h>
-#include <hwy/targets.h>
 
 #include <cmath>
-#include <cstdint>
 #include <limits>
-#include <vector>
 
 #include "emmy/model/model_builder.h"
+#include "tests/integrate/lanes_run.h"
 #include "tests/support/paper_box.h"
 #include "tests/support/random_source.h"
 #include "tests/support/roundoff_bound.h"
@@ -19,40 +17,15 @@ namespace {
 
 constexpr double kTimeStep = 1e-3;
 
-class AncfBodyLanesTest : public ::testing::Test {
+class AncfBodyLanesTest : public LanesTest {
  protected:
-  // Two boxes, so that a body has neighbours on both sides or none.
   static ModelDescription Boxes(double penalty = 1e10) {
-    ModelDescription model = ModelOf(PaperBox(Formulation::kAncf, penalty));
-    RigidBodyDescription other = PaperBox(Formulation::kAncf, penalty);
-    other.name = "other";
-    other.position = {100.0, -20.0, 3.0};
-    other.velocity = {1.0, -2.0, 0.5};
-    other.angular_velocity = {-0.7, 0.2, 0.4};
-    model.rigid_bodies.push_back(other);
-    model.gravity = {0.1, 0.2, -9.81};
-    return model;
+    return TwoBoxes(Formulation::kAncf, penalty);
   }
-
-  // All instruction sets again, whatever a test chose.
-  ~AncfBodyLanesTest() override { hwy::SetSupportedTargetsForTest(0); }
 };
 
 TEST_F(AncfBodyLanesTest, BitsAreTheSameWithEveryInstructionSet) {
-  const std::vector<int64_t> targets = hwy::SupportedAndGeneratedTargets();
-#if defined(__x86_64__)
-  // The plain one, and what any machine with AVX2 has besides.
-  ASSERT_GE(targets.size(), 2U);
-#endif
-  TestRun reference(Boxes(), kTimeStep);
-  ASSERT_TRUE(reference.Advance(200));
-  for (const int64_t target : targets) {
-    hwy::SetSupportedTargetsForTest(target);
-    TestRun run(Boxes(), kTimeStep);
-    ASSERT_TRUE(run.Advance(200));
-    EXPECT_TRUE(SameState(run.state(), reference.state()))
-        << hwy::TargetName(target);
-  }
+  ExpectSameBitsWithEveryInstructionSet(Boxes(), kTimeStep, 200);
 }
 
 class LanesStartTest : public AncfBodyLanesTest,

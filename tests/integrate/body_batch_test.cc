@@ -14,6 +14,7 @@
 #include "emmy/integrate/energy_momentum.h"
 #include "tests/contract/roundoff_growth.h"
 #include "tests/integrate/batch_run.h"
+#include "tests/support/instruction_sets.h"
 #include "tests/support/roundoff_bound.h"
 #include "tests/support/test_run.h"
 
@@ -44,12 +45,6 @@ void ExpectSameBody(const ModelBody& a, const State& state_a,
       << b.name;
 }
 
-// 0: all instruction sets again.
-void Choose(int64_t target) {
-  hwy::SetSupportedTargetsForTest(target);
-  hwy::GetChosenTarget().Update(hwy::SupportedTargets());
-}
-
 constexpr int64_t kWithoutFusedMultiplyAdd =
     HWY_SSE4 | HWY_SSSE3 | HWY_EMU128 | HWY_SCALAR | HWY_WASM;
 
@@ -66,25 +61,22 @@ std::vector<int64_t> TargetsWhere(bool fused) {
 std::vector<int64_t> FusedTargets() { return TargetsWhere(true); }
 std::vector<int64_t> OtherTargets() { return TargetsWhere(false); }
 
-class BodyBatchTest : public ::testing::Test {
- protected:
-  ~BodyBatchTest() override { Choose(0); }
-};
+class BodyBatchTest : public InstructionSetTest {};
 
 // Of those that round a product before they add to it, and of the others.
 TEST_F(BodyBatchTest, EveryInstructionSetGivesTheSameBits) {
   const BuiltModel built = BuildModel(AllKinds()).value();
   for (const std::vector<int64_t>& targets : {FusedTargets(), OtherTargets()}) {
     if (targets.empty()) continue;
-    Choose(targets[0]);
+    ChooseInstructionSet(targets[0]);
     const State expected = StateAfter(built, 300, {.time_step = kStep});
     for (const int64_t target : targets) {
-      Choose(target);
+      ChooseInstructionSet(target);
       EXPECT_TRUE(
           SameState(StateAfter(built, 300, {.time_step = kStep}), expected))
           << hwy::TargetName(target);
     }
-    Choose(0);
+    ChooseInstructionSet(0);
   }
 }
 
@@ -212,9 +204,9 @@ TEST_P(BatchAgreementTest, LeadsToTheStepOfOneBody) {
 TEST_P(BatchAgreementTest, LeadsToItWithoutFusedMultiplyAddToo) {
   const std::vector<int64_t> targets = OtherTargets();
   if (targets.empty()) GTEST_SKIP() << "not on this processor";
-  Choose(targets[0]);
+  ChooseInstructionSet(targets[0]);
   EXPECT_LE(LargestDifference(GetParam()), RoundoffBound(32, 1.0));
-  Choose(0);
+  ChooseInstructionSet(0);
 }
 
 INSTANTIATE_TEST_SUITE_P(Cases, BatchAgreementTest,

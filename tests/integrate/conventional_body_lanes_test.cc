@@ -1,15 +1,13 @@
 #include "emmy/integrate/conventional_body_lanes.h"
 
 #include <gtest/gtest.h>
-#include <hwy/targets.h>
 
 #include <cmath>
-#include <cstdint>
 #include <limits>
-#include <vector>
 
 #include "emmy/base/double_double.h"
 #include "emmy/model/model_builder.h"
+#include "tests/integrate/lanes_run.h"
 #include "tests/support/paper_box.h"
 #include "tests/support/random_source.h"
 #include "tests/support/roundoff_bound.h"
@@ -20,40 +18,15 @@ namespace {
 
 constexpr double kTimeStep = 1e-3;
 
-class ConventionalBodyLanesTest : public ::testing::Test {
+class ConventionalBodyLanesTest : public LanesTest {
  protected:
-  // Two boxes, so that a body has neighbours on both sides or none.
   static ModelDescription Boxes() {
-    ModelDescription model = ModelOf(PaperBox(Formulation::kConventional));
-    RigidBodyDescription other = PaperBox(Formulation::kConventional);
-    other.name = "other";
-    other.position = {100.0, -20.0, 3.0};
-    other.velocity = {1.0, -2.0, 0.5};
-    other.angular_velocity = {-0.7, 0.2, 0.4};
-    model.rigid_bodies.push_back(other);
-    model.gravity = {0.1, 0.2, -9.81};
-    return model;
+    return TwoBoxes(Formulation::kConventional);
   }
-
-  // All instruction sets again, whatever a test chose.
-  ~ConventionalBodyLanesTest() override { hwy::SetSupportedTargetsForTest(0); }
 };
 
 TEST_F(ConventionalBodyLanesTest, BitsAreTheSameWithEveryInstructionSet) {
-  const std::vector<int64_t> targets = hwy::SupportedAndGeneratedTargets();
-#if defined(__x86_64__)
-  // The plain one, and what any machine with AVX2 has besides.
-  ASSERT_GE(targets.size(), 2U);
-#endif
-  TestRun reference(Boxes(), kTimeStep);
-  ASSERT_TRUE(reference.Advance(200));
-  for (const int64_t target : targets) {
-    hwy::SetSupportedTargetsForTest(target);
-    TestRun run(Boxes(), kTimeStep);
-    ASSERT_TRUE(run.Advance(200));
-    EXPECT_TRUE(SameState(run.state(), reference.state()))
-        << hwy::TargetName(target);
-  }
+  ExpectSameBitsWithEveryInstructionSet(Boxes(), kTimeStep, 200);
 }
 
 // From states along a motion, with compensations made so large that one which

@@ -1,16 +1,15 @@
 #include "emmy/integrate/lined_body_lanes.h"
 
 #include <gtest/gtest.h>
-#include <hwy/targets.h>
 
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
 #include <ostream>
 #include <string>
 #include <vector>
 
 #include "emmy/integrate/structure.h"
+#include "tests/integrate/lanes_run.h"
 #include "tests/support/roundoff_bound.h"
 #include "tests/support/structures.h"
 #include "tests/support/test_run.h"
@@ -44,27 +43,10 @@ bool Fits(const ModelDescription& description) {
   return LinedBodyLanes::Fits(structures[0]);
 }
 
-class LinedBodyLanesTest : public ::testing::Test {
- protected:
-  // All instruction sets again, whatever a test chose.
-  ~LinedBodyLanesTest() override { hwy::SetSupportedTargetsForTest(0); }
-};
+class LinedBodyLanesTest : public LanesTest {};
 
 TEST_F(LinedBodyLanesTest, BitsAreTheSameWithEveryInstructionSet) {
-  const std::vector<int64_t> targets = hwy::SupportedAndGeneratedTargets();
-#if defined(__x86_64__)
-  // The plain one, and what any machine with AVX2 has besides.
-  ASSERT_GE(targets.size(), 2U);
-#endif
-  TestRun reference(FourLines(), kTimeStep);
-  ASSERT_TRUE(reference.Advance(100));
-  for (const int64_t target : targets) {
-    hwy::SetSupportedTargetsForTest(target);
-    TestRun run(FourLines(), kTimeStep);
-    ASSERT_TRUE(run.Advance(100));
-    EXPECT_TRUE(SameState(run.state(), reference.state()))
-        << hwy::TargetName(target);
-  }
+  ExpectSameBitsWithEveryInstructionSet(FourLines(), kTimeStep, 100);
 }
 
 struct Case {

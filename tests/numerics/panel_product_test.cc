@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "emmy/base/types.h"
+#include "tests/support/instruction_sets.h"
 #include "tests/support/random_source.h"
 
 namespace emmy {
@@ -18,11 +19,8 @@ template <typename Scalar>
 using Entries = Eigen::Matrix<Scalar, Eigen::Dynamic, 1>;
 
 template <typename Scalar>
-class PanelProductTest : public ::testing::Test {
+class PanelProductTest : public InstructionSetTest {
  protected:
-  // All instruction sets again, whatever a test chose.
-  ~PanelProductTest() override { hwy::SetSupportedTargetsForTest(0); }
-
   // Every remainder of blocks of rows and columns.
   static std::vector<std::pair<int, int>> Shapes() {
     std::vector<std::pair<int, int>> shapes;
@@ -72,7 +70,7 @@ TYPED_TEST(PanelProductTest, ProductsOfWholeNumbersAreExact) {
 }
 
 TYPED_TEST(PanelProductTest, EveryInstructionSetGivesTheSameBits) {
-  const std::vector<int64_t> targets = hwy::SupportedAndGeneratedTargets();
+  const std::vector<int64_t> targets = this->InstructionSets();
   RandomSource random(4);
   for (const auto& [rows, columns] : this->Shapes()) {
     const Panel<TypeParam> panel = this->RandomPanel(rows, columns, &random);
@@ -81,8 +79,7 @@ TYPED_TEST(PanelProductTest, EveryInstructionSetGivesTheSameBits) {
     Entries<TypeParam> first_y;
     Entries<TypeParam> first_z;
     for (const int64_t target : targets) {
-      hwy::SetSupportedTargetsForTest(target);
-      hwy::GetChosenTarget().Update(hwy::SupportedTargets());
+      ChooseInstructionSet(target);
       Entries<TypeParam> y(rows);
       Entries<TypeParam> z(columns);
       PanelTimes(panel.data(), rows, columns, x.data(), y.data());
@@ -94,8 +91,6 @@ TYPED_TEST(PanelProductTest, EveryInstructionSetGivesTheSameBits) {
       EXPECT_EQ(y, first_y) << hwy::TargetName(target) << ' ' << rows;
       EXPECT_EQ(z, first_z) << hwy::TargetName(target) << ' ' << rows;
     }
-    hwy::SetSupportedTargetsForTest(0);
-    hwy::GetChosenTarget().Update(hwy::SupportedTargets());
   }
 }
 
