@@ -48,8 +48,14 @@ class AncfCompensationTest : public ::testing::Test {
     return increment;
   }
 
-  void ExpectSameStep(const AncfBodyStart& split,
-                      const AncfBodyStart& whole) const {
+  // Of this part of a body's start.
+  template <typename Entries>
+  void ExpectCompensationCounts(Entries AncfBodyStart::*value,
+                                Entries AncfBodyStart::*compensation) const {
+    AncfBodyStart split = start_;
+    split.*compensation = RandomSource(1).Entries<Entries>(kLarge);
+    AncfBodyStart whole = start_;
+    whole.*value += split.*compensation;
     const AncfBodyIncrement a = Solve(split);
     const AncfBodyIncrement b = Solve(whole);
     EXPECT_LE((a.rates - b.rates).cwiseAbs().maxCoeff(), kRounding);
@@ -64,27 +70,18 @@ class AncfCompensationTest : public ::testing::Test {
 };
 
 TEST_F(AncfCompensationTest, ThoseOfTheVectorsCount) {
-  AncfBodyStart split = start_;
-  split.gradients_compensation = RandomSource(1).Entries<Matrix3d>(kLarge);
-  AncfBodyStart whole = start_;
-  whole.gradients += split.gradients_compensation;
-  ExpectSameStep(split, whole);
+  ExpectCompensationCounts(&AncfBodyStart::gradients,
+                           &AncfBodyStart::gradients_compensation);
 }
 
 TEST_F(AncfCompensationTest, ThoseOfTheRatesCount) {
-  AncfBodyStart split = start_;
-  split.rates_compensation = RandomSource(2).Entries<Matrix3d>(kLarge);
-  AncfBodyStart whole = start_;
-  whole.rates += split.rates_compensation;
-  ExpectSameStep(split, whole);
+  ExpectCompensationCounts(&AncfBodyStart::rates,
+                           &AncfBodyStart::rates_compensation);
 }
 
 TEST_F(AncfCompensationTest, ThoseOfTheStrainCount) {
-  AncfBodyStart split = start_;
-  split.strain_compensation = RandomSource(3).Entries<Vector6d>(kLarge);
-  AncfBodyStart whole = start_;
-  whole.strain += split.strain_compensation;
-  ExpectSameStep(split, whole);
+  ExpectCompensationCounts(&AncfBodyStart::strain,
+                           &AncfBodyStart::strain_compensation);
 }
 
 TEST(ConventionalCompensationTest, ThoseOfTheAngularVelocityCount) {
