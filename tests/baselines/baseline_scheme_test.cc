@@ -7,6 +7,7 @@
 
 #include "emmy/diagnostics/invariant_monitor.h"
 #include "emmy/diagnostics/invariants.h"
+#include "emmy/model/model_builder.h"
 #include "verification/baselines/elastic_system.h"
 #include "verification/runs/paper_box.h"
 #include "verification/runs/run.h"
@@ -50,6 +51,25 @@ TEST_P(BaselineSchemeTest, LeavesTheStrainOfTheCoordinates) {
   EXPECT_LT(StrainGap(run->model(), run->state()), 16 * kUnit);
   EXPECT_EQ(run->state().step, 50);
   EXPECT_NEAR(run->state().time.value, 5e-3, 1e-17);
+}
+
+// Of the same number too: a step depends on the state it is given, not on the
+// run before.
+TEST_P(BaselineSchemeTest, StartsAnewFromAnotherState) {
+  const IntegratorOptions options{.time_step = 1e-3};
+  const BuiltModel built = *BuildModel(PaperBoxAncf(kSoft));
+  const Scheme scheme = BaselineScheme(GetParam());
+  const StepFunction used = *scheme(built.model, options);
+  State state = built.state;
+  for (int i = 0; i < 5; ++i) ASSERT_TRUE(used(state).ok());
+  State other = built.state;
+  other.step = state.step;
+  other.velocity.value *= 2.0;
+  State expected = other;
+  ASSERT_TRUE(used(other).ok());
+  ASSERT_TRUE((*scheme(built.model, options))(expected).ok());
+  EXPECT_EQ(other.position.value, expected.position.value);
+  EXPECT_EQ(other.velocity.value, expected.velocity.value);
 }
 
 INSTANTIATE_TEST_SUITE_P(All, BaselineSchemeTest,
