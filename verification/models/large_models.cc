@@ -3,8 +3,10 @@
 #include <Eigen/Geometry>
 #include <array>
 #include <cmath>
+#include <set>
 #include <string>
 #include <utility>
+#include <variant>
 #include <vector>
 
 #include "absl/strings/str_cat.h"
@@ -23,11 +25,15 @@ constexpr double kPenalty = 1e10;       // [Pa]
 
 std::string NodeName(int i, int j) { return absl::StrCat("node_", i, "_", j); }
 
-IntegratorSettings Steps(double time_step, double duration) {
-  IntegratorSettings settings;
-  settings.time_step = time_step;
-  settings.duration = duration;
-  return settings;
+Case EmptyCase(const std::string& name, const std::string& purpose,
+               double duration = 1.0) {
+  Case value;
+  value.name = name;
+  value.purpose = purpose;
+  value.integrator.time_step = 1e-3;
+  value.integrator.duration = duration;
+  value.output_every = 100;
+  return value;
 }
 
 // A net of n × n nodes with a hub, of trusses or cables.
@@ -124,43 +130,36 @@ Vector3d ChainOmega(int index) {
 }  // namespace
 
 Case SpinningNet(int n) {
-  Case value;
-  value.name = absl::StrCat("spinning_net_", n);
-  value.purpose =
-      "A spinning square net with both diagonals, a hub and corner masses.";
+  Case value = EmptyCase(
+      absl::StrCat("spinning_net_", n),
+      "A spinning square net with both diagonals, a hub and corner masses.");
   value.model = NetBuilder(n, /*tension_only=*/false).Build();
-  value.integrator = Steps(1e-3, 1.0);
-  value.output_every = 100;
   return value;
 }
 
 Case SlackCableNet(int n) {
-  Case value;
-  value.name = absl::StrCat("slack_cable_net_", n);
-  value.purpose = "A spinning net of cables that go slack and taut.";
+  Case value =
+      EmptyCase(absl::StrCat("slack_cable_net_", n),
+                "A spinning net of cables that go slack and taut.", 5.0);
   value.model = NetBuilder(n, /*tension_only=*/true).Build();
-  // Not carried round by the spin: the net ripples and its cables go slack.
+  // Not carried round by the spin: the net ripples and its cables go slack. All
+  // but the nodes that the hub holds.
+  std::set<std::string> held;
+  for (const auto& [node, body] : value.model.shared_points) {
+    held.insert(std::get<NodePoint>(node).node);
+  }
   for (NodeDescription& node : value.model.nodes) {
-    if (std::abs(node.position(0)) < 0.3 * kSide / n) continue;
+    if (held.count(node.name) > 0) continue;
     auto& velocity = std::get<Vector3d>(node.velocity);
     velocity(2) += 0.2 * std::sin(3.0 * node.position(0)) *
                    std::cos(2.0 * node.position(1));
   }
-  for (const auto& [tied, body] : value.model.shared_points) {
-    for (NodeDescription& node : value.model.nodes) {
-      if (node.name != std::get<NodePoint>(tied).node) continue;
-      node.velocity = Vector3d(Vector3d(0.0, 0.0, kSpin).cross(node.position));
-    }
-  }
-  value.integrator = Steps(1e-3, 5.0);
-  value.output_every = 100;
   return value;
 }
 
 Case BoxChain(int n) {
-  Case value;
-  value.name = absl::StrCat("box_chain_", n);
-  value.purpose = "A chain of boxes joined by spherical joints.";
+  Case value = EmptyCase(absl::StrCat("box_chain_", n),
+                         "A chain of boxes joined by spherical joints.");
   const Vector3d arm(1.5, 0.0, 0.0);
   Vector3d velocity = Vector3d::Zero();
   Vector3d mean = Vector3d::Zero();
@@ -183,15 +182,12 @@ Case BoxChain(int n) {
   for (RigidBodyDescription& box : value.model.rigid_bodies) {
     box.velocity += Vector3d(0.1, 0.2, 0.3) - mean;
   }
-  value.integrator = Steps(1e-3, 1.0);
-  value.output_every = 100;
   return value;
 }
 
 Case BoxGrid(int n) {
-  Case value;
-  value.name = absl::StrCat("box_grid_", n);
-  value.purpose = "A square grid of boxes joined by spherical joints.";
+  Case value = EmptyCase(absl::StrCat("box_grid_", n),
+                         "A square grid of boxes joined by spherical joints.");
   const Vector3d along(1.5, 0.0, 0.0);
   const Vector3d across(0.0, 1.0, 0.0);
   const auto name = [](int i, int j) {
@@ -234,15 +230,12 @@ Case BoxGrid(int n) {
       }
     }
   }
-  value.integrator = Steps(1e-3, 1.0);
-  value.output_every = 100;
   return value;
 }
 
 Case BoxTree(int n) {
-  Case value;
-  value.name = absl::StrCat("box_tree_", n);
-  value.purpose = "A binary tree of boxes joined by spherical joints.";
+  Case value = EmptyCase(absl::StrCat("box_tree_", n),
+                         "A binary tree of boxes joined by spherical joints.");
   // On the box towards the root, and the box's own end.
   const std::array<Vector3d, 2> branches = {Vector3d(1.5, 1.0, 0.0),
                                             Vector3d(1.5, -1.0, 0.0)};
@@ -264,15 +257,12 @@ Case BoxTree(int n) {
     }
     value.model.rigid_bodies.push_back(box);
   }
-  value.integrator = Steps(1e-3, 1.0);
-  value.output_every = 100;
   return value;
 }
 
 Case TrussedBoxes(int n) {
-  Case value;
-  value.name = absl::StrCat("trussed_boxes_", n);
-  value.purpose = "Boxes in a row, neighbours joined by four trusses.";
+  Case value = EmptyCase(absl::StrCat("trussed_boxes_", n),
+                         "Boxes in a row, neighbours joined by four trusses.");
   constexpr double kGap = 2.0;
   const std::array<Vector3d, 4> corners = {
       Vector3d(1.5, 1.0, 0.5), Vector3d(1.5, -1.0, 0.5),
@@ -298,8 +288,6 @@ Case TrussedBoxes(int n) {
       value.model.trusses.push_back(truss);
     }
   }
-  value.integrator = Steps(1e-3, 1.0);
-  value.output_every = 100;
   return value;
 }
 
