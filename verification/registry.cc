@@ -14,10 +14,10 @@ const std::vector<Claim>& AllClaims() {
     auto* all = new std::vector<Claim>;
     for (const auto& group :
          {KinematicsClaims, LawClaims, ConservationClaims, SymmetryClaims,
-          VibrationClaims, GrowthClaims, LargeStepClaims, PenaltyClaims,
-          AngularVelocityClaims, OrderClaims, CompositionClaims, ExternalClaims,
-          ExternalStructureClaims, StructureClaims, BaselineClaims,
-          FigureClaims}) {
+          VibrationClaims, AgreementClaims, GrowthClaims, LargeStepClaims,
+          PenaltyClaims, AngularVelocityClaims, OrderClaims, CompositionClaims,
+          ExternalClaims, ExternalStructureClaims, StructureClaims,
+          BaselineClaims, FigureClaims}) {
       for (Claim& claim : group()) all->push_back(std::move(claim));
     }
     return all;

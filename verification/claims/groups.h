@@ -13,6 +13,7 @@ std::vector<Claim> KinematicsClaims();       // kinematics.cc
 std::vector<Claim> LawClaims();              // laws.cc
 std::vector<Claim> SymmetryClaims();         // symmetry.cc
 std::vector<Claim> VibrationClaims();        // vibration.cc
+std::vector<Claim> AgreementClaims();        // agreement.cc
 std::vector<Claim> ConservationClaims();     // conservation.cc
 std::vector<Claim> GrowthClaims();           // growth.cc
 std::vector<Claim> LargeStepClaims();        // large_steps.cc

@@ -11,7 +11,6 @@
 #include "verification/claims/groups.h"
 #include "verification/runs/fit.h"
 #include "verification/runs/larger.h"
-#include "verification/runs/motion_error.h"
 #include "verification/runs/paper_box.h"
 #include "verification/runs/run.h"
 
@@ -37,20 +36,21 @@ const AncfRigidBody& Element(const Run& run) {
   return *run.model().bodies()[0].ancf();
 }
 
-constexpr double kRate = 1e-8;  // The amplitude of the strain.
+constexpr double kAmplitude = 1e-8;  // Of the strain.
 
 // A body at rest, set going in one strain. Of a sine sampled in steps of the
 // phase θ, εₙ₋₁ + εₙ₊₁ = 2 cos θ εₙ.
 absl::StatusOr<ClaimResult> Frequency(const ClaimSetting& setting) {
   ModelDescription description = PaperBoxAncf(1e10);
   description.rigid_bodies[0].angular_velocity.setZero();
+  const absl::StatusOr<Run> still =
+      Run::Start(description, 1.0, EnergyMomentumScheme);
+  if (!still.ok()) return still.status();
+  const Vector6d frequencies = Frequencies(Element(*still));
+  const Vector3d moment = Element(*still).second_moment().diagonal();
   ClaimResult result;
   for (int k = 0; k < AncfRigidBody::kNumStrains; ++k) {
-    const absl::StatusOr<Run> still =
-        Run::Start(description, 1.0, EnergyMomentumScheme);
-    if (!still.ok()) return still.status();
-    const double frequency = Frequencies(Element(*still))(k);
-    const Vector3d moment = Element(*still).second_moment().diagonal();
+    const double frequency = frequencies(k);
     const double time_step = 0.3 / frequency;
     absl::StatusOr<Run> run =
         Run::Start(description, time_step, setting.scheme);
@@ -60,12 +60,12 @@ absl::StatusOr<ClaimResult> Frequency(const ClaimSetting& setting) {
       return run->state().velocity.value(3 + 3 * vector + component);
     };
     if (k < 3) {
-      rate(k, k) = kRate * frequency;
+      rate(k, k) = kAmplitude * frequency;
     } else {
       const auto [m, n] =
           AncfRigidBody::kShearPairs[static_cast<size_t>(k - 3)];
-      rate(m, n) = kRate * frequency * moment(n) / (moment(m) + moment(n));
-      rate(n, m) = kRate * frequency * moment(m) / (moment(m) + moment(n));
+      rate(m, n) = kAmplitude * frequency * moment(n) / (moment(m) + moment(n));
+      rate(n, m) = kAmplitude * frequency * moment(m) / (moment(m) + moment(n));
     }
     std::vector<double> strain = {0.0};
     const absl::Status status = run->Advance(200, [&](const Run& advanced) {
@@ -102,23 +102,24 @@ absl::StatusOr<ClaimResult> Amplitude(const ClaimSetting& setting) {
   const Vector6d frequencies = Frequencies(Element(*run));
   const Vector6d needed = RelaxedStrain(
       Element(*run), PaperBoxAncf(1e10).rigid_bodies[0].angular_velocity);
+  // In units of twice the relaxed strain.
   Vector6d largest = Vector6d::Zero();
-  const auto period = static_cast<int64_t>(2.0 * 3.141592653589793 /
-                                           (kStep * frequencies.minCoeff()));
+  constexpr double kTurn = 2.0 * 3.141592653589793;
+  const auto period =
+      static_cast<int64_t>(kTurn / (kStep * frequencies.minCoeff()));
   for (int64_t i = 1; i <= period; ++i) {
     const absl::Status status = run->Advance(1);
     if (!status.ok()) return status;
     for (int k = 0; k < AncfRigidBody::kNumStrains; ++k) {
       // Its own first period.
-      if (static_cast<double>(i) * kStep * frequencies(k) > 6.3) continue;
+      if (static_cast<double>(i) * kStep * frequencies(k) > kTurn) continue;
       const double strain = run->state().strain.value(k);
-      if (std::abs(strain) > std::abs(largest(k))) largest(k) = strain;
+      largest(k) = Larger(largest(k), strain / (2.0 * needed(k)));
     }
   }
   ClaimResult result;
   for (int k = 0; k < AncfRigidBody::kNumStrains; ++k) {
-    result.values.push_back(
-        {absl::StrFormat("strain %d", k + 1), largest(k) / (2.0 * needed(k))});
+    result.values.push_back({absl::StrFormat("strain %d", k + 1), largest(k)});
   }
   return result;
 }
@@ -161,33 +162,6 @@ absl::StatusOr<ClaimResult> Relaxed(const ClaimSetting& setting) {
   result.values = {{"exponent", FitPower(penalties, distances)}};
   return result;
 }
-
-// Attitudes of both formulations; undeformed start.
-absl::StatusOr<ClaimResult> AttitudeAgreement(
-    const ClaimSetting& setting, ModelDescription (*ancf)(double),
-    const ModelDescription& conventional) {
-  constexpr ReadingTimes kTimes = {.interval = 0.01, .duration = 10.0};
-  const IntegratorOptions options{.time_step = 1e-3};
-  const absl::StatusOr<std::vector<BodyMotion>> rigid =
-      ReadMotion(conventional, options, kTimes, setting.scheme);
-  if (!rigid.ok()) return rigid.status();
-  const std::vector<double> penalties =
-      PowersOfTen(6, 10, setting.level == Level::kFull ? 1 : 2);
-  std::vector<double> errors;
-  ClaimResult result;
-  for (const double penalty : penalties) {
-    const absl::StatusOr<std::vector<BodyMotion>> motion =
-        ReadMotion(ancf(penalty), options, kTimes, setting.scheme);
-    if (!motion.ok()) return motion.status();
-    errors.push_back(LargestError(*motion, *rigid).attitude);
-    result.notes.push_back(
-        absl::StrFormat("%s: %.3g rad", PenaltyLabel(penalty), errors.back()));
-  }
-  result.values = {{"exponent", FitPower(penalties, errors)}};
-  return result;
-}
-
-ModelDescription UndeformedBox(double penalty) { return PaperBoxAncf(penalty); }
 
 }  // namespace
 
@@ -242,42 +216,6 @@ std::vector<Claim> VibrationClaims() {
                      "of alpha^(-3/2); ten per cent for the second order of "
                      "strains, alpha^(-2). An undeformed start gives -1"},
        .measure = Relaxed});
-  constexpr char kAttitudeDerivation[] =
-      "p = -1: the angular velocity errs as 1/alpha (penalty/locked_exponent) "
-      "and the attitude with it; the strain itself, which the polar attitude "
-      "does not see, is as large. Ten per cent for the ends";
-  claims.push_back(
-      {.id = "agreement/box_attitude",
-       .sentence = "The attitude of the ANCF body approaches the conventional "
-                   "body's as 1/alpha.",
-       .equations = "(ATT-1), (CRB-3)",
-       .reference = Reference::kCrossFormulation,
-       .metric = "p of max angle between the attitudes over 10 s = C alpha^p, "
-                 "alpha = 1e6 ... 1e10 Pa, dt = 1 ms",
-       .unit = "-",
-       .bound = {.lower = -1.1,
-                 .upper = -0.9,
-                 .derivation = kAttitudeDerivation},
-       .measure = [](const ClaimSetting& setting) {
-         return AttitudeAgreement(setting, UndeformedBox,
-                                  PaperBoxConventional());
-       }});
-  claims.push_back(
-      {.id = "agreement/truss_attitude",
-       .sentence = "With a truss on it as well, the attitude of the ANCF "
-                   "body approaches the conventional body's as 1/alpha.",
-       .equations = "(ATT-1), (CRB-6..8)",
-       .reference = Reference::kCrossFormulation,
-       .metric = "p of max angle between the attitudes over 10 s = C alpha^p, "
-                 "alpha = 1e6 ... 1e10 Pa, dt = 1 ms",
-       .unit = "-",
-       .bound = {.lower = -1.1,
-                 .upper = -0.9,
-                 .derivation = kAttitudeDerivation},
-       .measure = [](const ClaimSetting& setting) {
-         return AttitudeAgreement(setting, PaperTrussAncf,
-                                  PaperTrussConventional());
-       }});
   return claims;
 }
 
