@@ -51,37 +51,18 @@ class AncfPackStep {
 
   // Advances the lanes that are alive and converge; returns the others.
   HWY_INLINE Flag Advance() {
-    const Flag alive = Broadcast(0.0) < Load(block_.centre.alive + lane_);
     Pack33 change =
         Broadcast(step_.time_step) * Load33(block_.acceleration.next, lane_);
-    Flag active = alive;
-    Flag failed = Without(alive, alive);
-    Pack previous = Broadcast(0.0);
-    Pack iterations = Load(block_.centre.iterations + lane_);
-    for (int i = 0; i < kMaxIterations; i += 2) {
-      iterations = iterations + OrZero(active, Broadcast(2.0));
-      Correct(&change);
-      // A lane is written as soon as it has converged, and left alone while
-      // others go on.
-      Pack size;
-      const Flag done = Finish(active, &change, &size);
-      active = Without(active, done);
-      if (None(active)) break;
-      if (i > 0) {
-        const Flag slow = And(active, Broadcast(0.25) * previous < size);
-        failed = Or(failed, slow);
-        active = Without(active, slow);
-        if (None(active)) break;
-      }
-      previous = size;
-    }
-    Store(iterations, block_.centre.iterations + lane_);
-    return Or(failed, active);
+    return Iterate<2>(this, lane_, &change, &block_.centre);
+  }
+
+  // Of Iterate.
+  HWY_INLINE Flag Round(Flag active, Pack33* change, Pack* size) {
+    Correct(change);
+    return Finish(active, change, size);
   }
 
  private:
-  static constexpr int kMaxIterations = 8;
-
   // The inverse of (EM-6); `antisymmetric` is that part of y.
   HWY_INLINE Pack33 TangentSolve(const Pack33& y,
                                  const Pack3& antisymmetric) const {

@@ -39,84 +39,27 @@ class ConventionalPackStep {
 
   // Advances the lanes that are alive and converge; returns the others.
   HWY_INLINE Flag Advance() {
-    const Flag alive = Broadcast(0.0) < Load(block_.centre.alive + lane_);
     Pack3 change =
         Broadcast(step_.time_step) * Load3(block_.acceleration.next, lane_);
-    Flag active = alive;
-    Flag failed = Without(alive, alive);
-    Pack previous = Broadcast(0.0);
-    Pack iterations = Load(block_.centre.iterations + lane_);
-    for (int i = 0; i < kMaxIterations; ++i) {
-      iterations = iterations + OrZero(active, Broadcast(1.0));
-      // A lane is written as soon as it has converged, and left alone while
-      // others go on.
-      Pack size;
-      const Flag done = Iterate(active, &change, &size);
-      active = Without(active, done);
-      if (None(active)) break;
-      if (i > 0) {
-        const Flag slow = And(active, Broadcast(0.25) * previous < size);
-        failed = Or(failed, slow);
-        active = Without(active, slow);
-        if (None(active)) break;
-      }
-      previous = size;
-    }
-    Store(iterations, block_.centre.iterations + lane_);
-    return Or(failed, active);
-  }
-
- private:
-  static constexpr int kMaxIterations = 8;
-
-  // W̄
-  HWY_INLINE PackSum3 Mean(const Pack3& change) const {
-    const Pack3 low =
-        MulAdd(Broadcast(0.5), change,
-               Load3(block_.angular_velocity.compensation, lane_));
-    const Pack3 high = Load3(block_.angular_velocity.value, lane_);
-    return {FastTwoSum(high.x, low.x), FastTwoSum(high.y, low.y),
-            FastTwoSum(high.z, low.z)};
-  }
-
-  // change + a b c for extended a, b and c.
-  HWY_INLINE Pack Residual(Pack change, size_t i, const PackSum& b,
-                           const PackSum& c) const {
-    const Pack a = Load(block_.coupling[i] + lane_);
-    const Pack a_low = Load(block_.coupling_low[i] + lane_);
-    const PackSum product = TwoProduct(b.sum, c.sum);
-    const Pack product_low =
-        MulAdd(b.sum, c.error, MulAdd(b.error, c.sum, product.error));
-    const PackSum term = TwoProduct(a, product.sum);
-    const Pack term_low =
-        MulAdd(a, product_low, MulAdd(a_low, product.sum, term.error));
-    return (change + term.sum) + term_low;
-  }
-
-  // v − O w, with u = ½ W̄.
-  HWY_INLINE Pack3 Less(const Pack3& v, const Pack3& u, const Pack3& w) const {
-    return {NegMulAdd(coupling_.x, MulAdd(u.z, w.y, u.y * w.z), v.x),
-            NegMulAdd(coupling_.y, MulAdd(u.x, w.z, u.z * w.x), v.y),
-            NegMulAdd(coupling_.z, MulAdd(u.y, w.x, u.x * w.y), v.z)};
+    return Iterate<1>(this, lane_, &change, &block_.centre);
   }
 
   // One correction of ΔW, and the end of the step for those of the `active`
-  // lanes where it was the last: they are returned. `size` is that of the
-  // correction, squared.
-  HWY_INLINE Flag Iterate(Flag active, Pack3* rate_change, Pack* size) {
+  // lanes where it was the last, as Iterate wants it.
+  HWY_INLINE Flag Round(Flag active, Pack3* rate_change, Pack* size) {
     const Pack3& start = *rate_change;
     const PackSum3 mean = Mean(start);
     const Pack3 residual = {Residual(start.x, 0, mean.y, mean.z),
                             Residual(start.y, 1, mean.z, mean.x),
                             Residual(start.z, 2, mean.x, mean.y)};
     const Pack3 half_mean =
-        Broadcast(0.5) * Pack3{mean.x.sum, mean.y.sum, mean.z.sum};
+        Broadcast(0.5) * Pack3{mean.x.value, mean.y.value, mean.z.value};
     const Pack3 correction =
         Less(residual, half_mean, Less(residual, half_mean, residual));
     const PackSum3 change = {FastTwoDifference(start.x, correction.x),
                              FastTwoDifference(start.y, correction.y),
                              FastTwoDifference(start.z, correction.z)};
-    const Pack3 high = {change.x.sum, change.y.sum, change.z.sum};
+    const Pack3 high = {change.x.value, change.y.value, change.z.value};
     // Squares of norms, so that a sum of two has a factor of two: |O|³ of the
     // correction, and what is quadratic.
     const Pack square = Dot(correction, correction);
@@ -140,6 +83,38 @@ class ConventionalPackStep {
     return done;
   }
 
+ private:
+  // W̄
+  HWY_INLINE PackSum3 Mean(const Pack3& change) const {
+    const Pack3 low =
+        MulAdd(Broadcast(0.5), change,
+               Load3(block_.angular_velocity.compensation, lane_));
+    const Pack3 high = Load3(block_.angular_velocity.value, lane_);
+    return {FastTwoSum(high.x, low.x), FastTwoSum(high.y, low.y),
+            FastTwoSum(high.z, low.z)};
+  }
+
+  // change + a b c for extended a, b and c.
+  HWY_INLINE Pack Residual(Pack change, size_t i, const PackSum& b,
+                           const PackSum& c) const {
+    const Pack a = Load(block_.coupling[i] + lane_);
+    const Pack a_low = Load(block_.coupling_low[i] + lane_);
+    const PackSum product = TwoProduct(b.value, c.value);
+    const Pack product_low =
+        MulAdd(b.value, c.error, MulAdd(b.error, c.value, product.error));
+    const PackSum term = TwoProduct(a, product.value);
+    const Pack term_low =
+        MulAdd(a, product_low, MulAdd(a_low, product.value, term.error));
+    return (change + term.value) + term_low;
+  }
+
+  // v − O w, with u = ½ W̄.
+  HWY_INLINE Pack3 Less(const Pack3& v, const Pack3& u, const Pack3& w) const {
+    return {NegMulAdd(coupling_.x, MulAdd(u.z, w.y, u.y * w.z), v.x),
+            NegMulAdd(coupling_.y, MulAdd(u.x, w.z, u.z * w.x), v.y),
+            NegMulAdd(coupling_.z, MulAdd(u.y, w.x, u.x * w.y), v.z)};
+  }
+
   // 1/√(1 + s) − 1, to a rounding of itself.
   static HWY_INLINE Pack InverseRootLessOne(Pack s) {
     // The binomial series to s⁵ is good to 2⁻⁵⁵ of itself below 2⁻¹¹.
@@ -159,7 +134,7 @@ class ConventionalPackStep {
   HWY_INLINE void Commit(const Writer<kAll>& writer, const PackSum3& change) {
     AdvanceCentre(step_, writer, lane_, &block_.centre);
     const Pack half = Broadcast(0.5);
-    const Pack3 high = {change.x.sum, change.y.sum, change.z.sum};
+    const Pack3 high = {change.x.value, change.y.value, change.z.value};
     CompensatedLanes<3>& rate = block_.angular_velocity;
     // (ROT-5): ½ Θ = Δt ½ W̄.
     const Pack3 mean = Load3(rate.value, lane_) +

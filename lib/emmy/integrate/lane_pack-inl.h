@@ -16,6 +16,7 @@
 #include <cstddef>
 
 #include "emmy/integrate/batch_blocks.h"
+#include "emmy/numerics/error_free_lanes-inl.h"
 #include "hwy/highway.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -27,13 +28,15 @@ using PackTag = hn::CappedTag<double, kBatchLanes>;
 inline constexpr int kPackLanes = static_cast<int>(hn::MaxLanes(PackTag()));
 
 struct Pack {
+  static HWY_INLINE Pack Set(double x) { return {hn::Set(PackTag(), x)}; }
+
   hn::Vec<PackTag> v;
 };
 struct Flag {
   hn::Mask<PackTag> m;
 };
 
-HWY_INLINE Pack Broadcast(double x) { return {hn::Set(PackTag(), x)}; }
+HWY_INLINE Pack Broadcast(double x) { return Pack::Set(x); }
 HWY_INLINE Pack Load(const double* lanes) {
   return {hn::Load(PackTag(), lanes)};
 }
@@ -157,42 +160,7 @@ HWY_INLINE Pack33 Dual(const Pack33& m) {
   return {inverse * bc, inverse * Cross(m.c, m.a), inverse * Cross(m.a, m.b)};
 }
 
-struct PackSum {
-  Pack sum;
-  Pack error;
-};
-HWY_INLINE PackSum TwoSum(Pack a, Pack b) {  // (SUM-1)
-  const Pack sum = a + b;
-  const Pack b_part = sum - a;
-  const Pack a_part = sum - b_part;
-  return {sum, (a - a_part) + (b - b_part)};
-}
-// (SUM-1) if |a| ≥ |b|; else the error is wrong by at most a rounding of b.
-HWY_INLINE PackSum FastTwoSum(Pack a, Pack b) {
-  const Pack sum = a + b;
-  return {sum, b - (sum - a)};
-}
-HWY_INLINE PackSum FastTwoDifference(Pack a, Pack b) {
-  const Pack difference = a - b;
-  return {difference, (a - difference) - b};
-}
-HWY_INLINE PackSum TwoProduct(Pack a, Pack b) {  // (SUM-3)
-  const Pack product = a * b;
-#if HWY_NATIVE_FMA
-  return {product, MulSub(a, b, product)};
-#else
-  const Pack split = Broadcast(134217729.0);  // 2²⁷ + 1.
-  const Pack a_scaled = split * a;
-  const Pack a_high = a_scaled - (a_scaled - a);
-  const Pack a_low = a - a_high;
-  const Pack b_scaled = split * b;
-  const Pack b_high = b_scaled - (b_scaled - b);
-  const Pack b_low = b - b_high;
-  return {product,
-          ((a_high * b_high - product) + a_high * b_low + a_low * b_high) +
-              a_low * b_low};
-#endif
-}
+using PackSum = WithError<Pack>;
 
 // What a step writes: only lanes of `done`, or all of them.
 template <bool kAll>
@@ -215,17 +183,17 @@ class Writer {
                       double* compensation) const {
     const PackSum result =
         FastTwoSum(Load(value), increment + Load(compensation));
-    Write(result.sum, value);
+    Write(result.value, value);
     Write(result.error, compensation);
   }
 
   // The same for an increment with a low-order part.
   HWY_INLINE void Add(const PackSum& increment, double* value,
                       double* compensation) const {
-    const PackSum first = FastTwoSum(Load(value), increment.sum);
+    const PackSum first = FastTwoSum(Load(value), increment.value);
     const PackSum second = FastTwoSum(
-        first.sum, first.error + (Load(compensation) + increment.error));
-    Write(second.sum, value);
+        first.value, first.error + (Load(compensation) + increment.error));
+    Write(second.value, value);
     Write(second.error, compensation);
   }
 
@@ -254,7 +222,7 @@ HWY_INLINE void PrepareCentre(const BatchStep& step, int lane,
     const Pack mean = Load(centre->velocity.value[i] + lane) +
                       Load(centre->velocity.compensation[i] + lane);
     const PackSum motion = TwoProduct(Broadcast(step.time_step), mean);
-    Store(motion.sum, centre->motion[i] + lane);
+    Store(motion.value, centre->motion[i] + lane);
     Store(motion.error, centre->motion_error[i] + lane);
   }
 }
@@ -277,12 +245,43 @@ HWY_INLINE void AdvanceCentre(const BatchStep& step, const Writer<kAll>& writer,
     }
     double* const x = centre->position.value[i] + lane;
     double* const xc = centre->position.compensation[i] + lane;
-    const PackSum first = TwoSum(Load(x), motion.sum);
+    const PackSum first = TwoSum(Load(x), motion.value);
     const PackSum second =
-        FastTwoSum(first.sum, first.error + (Load(xc) + motion.error));
-    writer.Write(second.sum, x);
+        FastTwoSum(first.value, first.error + (Load(xc) + motion.error));
+    writer.Write(second.value, x);
     writer.Write(second.error, xc);
   }
+}
+
+// Corrects `change` in the lanes that are alive, until each has converged or
+// its corrections no longer halve; returns the lanes that have not. A round of
+// kCorrections corrections, `step->Round(active, change, &size)`, writes those
+// of the active lanes that have converged and returns them: they are left alone
+// while others go on. `size` is that of its last correction, squared.
+template <int kCorrections, typename Step, typename Change>
+HWY_INLINE Flag Iterate(Step* step, int lane, Change* change,
+                        CentreLanes* centre) {
+  constexpr int kMaxCorrections = 8;
+  Flag active = Broadcast(0.0) < Load(centre->alive + lane);
+  Flag failed = Without(active, active);
+  Pack previous = Broadcast(0.0);
+  Pack iterations = Load(centre->iterations + lane);
+  for (int i = 0; i < kMaxCorrections; i += kCorrections) {
+    iterations = iterations + OrZero(active, Broadcast(kCorrections));
+    Pack size;
+    const Flag done = step->Round(active, change, &size);
+    active = Without(active, done);
+    if (None(active)) break;
+    if (i > 0) {
+      const Flag slow = And(active, Broadcast(0.25) * previous < size);
+      failed = Or(failed, slow);
+      active = Without(active, slow);
+      if (None(active)) break;
+    }
+    previous = size;
+  }
+  Store(iterations, centre->iterations + lane);
+  return Or(failed, active);
 }
 
 // Takes the accelerations of this step and predicts the next (EXTRA-1).
