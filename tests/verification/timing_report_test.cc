@@ -8,6 +8,7 @@
 
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_format.h"
+#include "verification/timing/peer_report.h"
 
 namespace emmy::verification {
 namespace {
@@ -88,6 +89,23 @@ TEST(TimingReportTest, SaysWhetherARatioMeetsItsTarget) {
   };
   EXPECT_THAT(report(100.0), HasSubstr("| 2.5 | <= 3 | met |"));
   EXPECT_THAT(report(200.0), HasSubstr("| 5 | <= 3 | **missed** |"));
+}
+
+TEST(TimingReportTest, EveryTargetSaysWhereItComesFrom) {
+  const std::string text = TimingReport(TimingRun());
+  for (const Ratio& ratio : Ratios()) {
+    EXPECT_NE(ratio.basis, "") << ratio.sentence;
+    EXPECT_THAT(text, HasSubstr(absl::StrFormat("%g | | %s |\n", ratio.target,
+                                                ratio.basis)));
+  }
+  for (const Growth& growth : Growths()) {
+    EXPECT_NE(growth.basis, "") << growth.sentence;
+    EXPECT_THAT(text, HasSubstr(absl::StrFormat("%g | | %s |\n", growth.target,
+                                                growth.basis)));
+  }
+  for (const Ratio& ratio : PeerRatios()) {
+    EXPECT_NE(ratio.basis, "") << ratio.sentence;
+  }
 }
 
 TEST(TimingReportTest, SaysWhatWasNotMeasured) {

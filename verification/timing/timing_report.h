@@ -11,13 +11,15 @@
 namespace emmy::verification {
 
 // A time over another of the same run, and what it should be: at most, or at
-// least, the target that the project has set itself.
+// least, the target. `basis` says where that comes from: "set" is what the
+// project has set itself, with what to read it by.
 struct Ratio {
   std::string sentence;
   std::string numerator;    // Names of benchmarks.
   std::string denominator;  // Divided by.
   double target = 0.0;
   bool at_least = false;  // The ratio should be that large, not that small.
+  std::string basis;
 };
 
 const std::vector<Ratio>& Ratios();
@@ -31,6 +33,7 @@ struct Growth {
   std::string sentence;
   std::vector<std::pair<double, std::string>> sizes;  // Size, benchmark.
   double target = 0.0;
+  std::string basis;  // As of a Ratio.
 };
 
 const std::vector<Growth>& Growths();
