@@ -2,7 +2,9 @@
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME emmy)
 set(CPACK_PACKAGE_VENDOR Emmy)
-set(CPACK_PACKAGE_CONTACT "The Emmy project <emmy@localhost>")
+# Who commits to the project; the address receives no mail.
+set(CPACK_PACKAGE_CONTACT
+  "Seed 34fffed1 maintainers <maintainers@users.noreply.h-seed-34fffed1.example>")
 set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
 set(CPACK_STRIP_FILES ON)
 set(CPACK_VERBATIM_VARIABLES ON)
