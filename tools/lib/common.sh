@@ -1,4 +1,4 @@
-# Shared by tools/test, tools/verify and .ci/run; sourced, not run.
+# Shared by the scripts of tools and .ci, and used by CI; sourced, not run.
 
 emmy_root="$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)"
 # EMMY_JOBS limits parallel work, for machines with little memory.
