@@ -34,6 +34,7 @@
 #include "emmy/io/case.h"
 #include "emmy/io/case_file.h"
 #include "emmy/io/case_writer.h"
+#include "emmy/io/checkpoint.h"
 #include "emmy/io/history.h"
 #include "emmy/io/summary.h"
 

@@ -101,6 +101,57 @@ TEST_F(CheckpointTest, EveryFieldComesBack) {
   EXPECT_EQ(EncodeCheckpoint(back).value(), bytes);
 }
 
+// The fields in their order, each number one more than that before. Who changes
+// this list changes the number of the format, if there has been a release with
+// it.
+TEST(CheckpointLayoutTest, IsThatOfVersionOne) {
+  double number = 0.0;
+  const auto fill = [&number](auto& m) {
+    for (Eigen::Index i = 0; i < m.size(); ++i) m.data()[i] = ++number;
+  };
+  const auto fill_sum = [&](CompensatedVector& sum) {
+    sum.SetZero(2);
+    fill(sum.value);
+    fill(sum.compensation);
+  };
+  const auto fill_sequence = [&](Extrapolation& sequence) {
+    sequence.SetZero(1);
+    fill(sequence.next);
+    fill(sequence.differences);
+  };
+  Checkpoint checkpoint;
+  checkpoint.case_name = "case";
+  checkpoint.case_checksum = 100;
+  checkpoint.build = "build";
+  State& state = checkpoint.state;
+  state.step = 101;
+  state.time = {++number, ++number};
+  fill_sum(state.position);
+  fill_sum(state.velocity);
+  fill_sum(state.strain);
+  fill_sum(state.end_velocity);
+  state.load_work = {++number, ++number};
+  fill_sequence(state.acceleration);
+  fill_sequence(state.multiplier);
+  KeptTangent kept{.matrix = VectorXd(2), .positions = Matrix3Xd(3, 2)};
+  fill(kept.matrix);
+  fill(kept.positions);
+  fill(kept.turn);
+  checkpoint.kept = {kept};
+  for (double& error : checkpoint.extremes.max_error) error = ++number;
+  for (double& scale : checkpoint.extremes.scale) scale = ++number;
+  checkpoint.total_iterations = 102;
+  checkpoint.max_iterations = 103;
+  checkpoint.last_iterations = 104;
+  checkpoint.wall_seconds = ++number;
+  checkpoint.history = HistoryPosition{105, 106};
+
+  const std::string bytes = EncodeCheckpoint(checkpoint).value();
+  // The first line, the length, the fields, and the sum of all before it.
+  EXPECT_EQ(bytes.size(), 18U + 8U + 769U + 8U);
+  EXPECT_EQ(Crc64(bytes.substr(0, bytes.size() - 8)), 13135255971113100170U);
+}
+
 TEST_F(CheckpointTest, KeepsSignsOfZeroAndDenormalNumbers) {
   checkpoint_.state.position.compensation(0) = -0.0;
   checkpoint_.state.position.compensation(1) =

@@ -10,6 +10,20 @@
 // factorisations that structures keep from step to step, the largest errors so
 // far, and where the history ended. The start of the run is not in it: it is
 // made again from the case, which is why the case must be the same.
+//
+// The number changes with the list of fields and with what a field means, from
+// the first release on. What was written before that (with a column more of
+// what Extrapolation keeps) is refused for its sizes.
+//
+//   Checkpoint checkpoint{.case_name = loaded.description.name,
+//                         .case_checksum = CaseChecksum(loaded.description),
+//                         .build = CheckpointBuild(),
+//                         .state = loaded.state,
+//                         .kept = integrator.Keep(),
+//                         .extremes = monitor.extremes()};
+// and after ReadCheckpoint and CheckSameCase
+//   integrator.Restore(checkpoint.kept);
+//   monitor.Resume(checkpoint.state, checkpoint.extremes);
 
 #ifndef EMMY_IO_CHECKPOINT_H_
 #define EMMY_IO_CHECKPOINT_H_
@@ -22,6 +36,7 @@
 #include "absl/status/status.h"
 #include "absl/status/statusor.h"
 #include "absl/strings/string_view.h"
+#include "emmy/base/export.h"
 #include "emmy/diagnostics/invariant_monitor.h"
 #include "emmy/integrate/coupled_tangent.h"
 #include "emmy/io/case.h"
@@ -47,30 +62,32 @@ struct Checkpoint {
 
 // Crc64 of the canonical text of a case (WriteCase): of what is computed, not
 // of how the file is written or which values came from the command line.
-uint64_t CaseChecksum(const Case& value);
+EMMY_EXPORT uint64_t CaseChecksum(const Case& value);
 
 // Version, compiler and flags, on which the last bits may depend.
-std::string CheckpointBuild();
+EMMY_EXPORT std::string CheckpointBuild();
 
 // The bytes of the file. Fails with kInternal, naming the field, if a number is
 // not finite.
-absl::StatusOr<std::string> EncodeCheckpoint(const Checkpoint& checkpoint);
+EMMY_EXPORT absl::StatusOr<std::string> EncodeCheckpoint(
+    const Checkpoint& checkpoint);
 
 // The inverse. Fails with kInvalidArgument and the reason if the bytes are not
 // a whole, undamaged checkpoint of a version that is known. Memory is bounded
 // by the number of bytes, whatever they say.
-absl::StatusOr<Checkpoint> DecodeCheckpoint(absl::string_view bytes);
+EMMY_EXPORT absl::StatusOr<Checkpoint> DecodeCheckpoint(
+    absl::string_view bytes);
 
 // The same with a file, which is replaced as a whole or not at all and is on
 // the disk on return; messages begin with `path`.
-absl::Status WriteCheckpoint(const std::string& path,
-                             const Checkpoint& checkpoint);
-absl::StatusOr<Checkpoint> ReadCheckpoint(const std::string& path);
+EMMY_EXPORT absl::Status WriteCheckpoint(const std::string& path,
+                                         const Checkpoint& checkpoint);
+EMMY_EXPORT absl::StatusOr<Checkpoint> ReadCheckpoint(const std::string& path);
 
 // Fails with kInvalidArgument and the reason unless the checkpoint is one of a
 // run of this case, whose state at the start is `start`.
-absl::Status CheckSameCase(const Checkpoint& checkpoint, const Case& value,
-                           const State& start);
+EMMY_EXPORT absl::Status CheckSameCase(const Checkpoint& checkpoint,
+                                       const Case& value, const State& start);
 
 }  // namespace emmy
 
