@@ -65,8 +65,10 @@ class Equations {
           kTimeStep * body.body->ancf()->InternalForce(mean, strain);
     }
     VectorXd magnitude = VectorXd::Zero(structure_.num_vectors());
-    lines_.Evaluate(kTimeStep, dq_, strain0_, no_strain_, &increment_,
-                    &residual, &magnitude);
+    lines_.AddImpulses(kTimeStep, dq_, strain0_, no_strain_, &residual,
+                       &magnitude);
+    lines_.AdvanceStrains(dq_, strain0_, no_strain_, &increment_);
+    lines_.Respond(dq_, strain0_, no_strain_);
     return residual;
   }
 

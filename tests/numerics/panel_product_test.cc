@@ -94,5 +94,27 @@ TYPED_TEST(PanelProductTest, EveryInstructionSetGivesTheSameBits) {
   }
 }
 
+// What is fetched for later is read by nobody, wherever it lies.
+TYPED_TEST(PanelProductTest, FetchingTheNextPanelChangesNoBit) {
+  RandomSource random(5);
+  for (const auto& [rows, columns] : this->Shapes()) {
+    const Panel<TypeParam> panel = this->RandomPanel(rows, columns, &random);
+    const Entries<TypeParam> x = this->RandomPanel(columns, 1, &random);
+    const Entries<TypeParam> v = this->RandomPanel(rows, 1, &random);
+    const TypeParam last = 0;
+    Entries<TypeParam> y(rows);
+    Entries<TypeParam> fetching_y(rows);
+    Entries<TypeParam> z(columns);
+    Entries<TypeParam> fetching_z(columns);
+    PanelTimes(panel.data(), rows, columns, x.data(), y.data());
+    PanelTimes(panel.data(), rows, columns, x.data(), fetching_y.data(), &last);
+    EXPECT_EQ(fetching_y, y) << rows << " x " << columns;
+    TransposedPanelTimes(panel.data(), rows, columns, v.data(), z.data());
+    TransposedPanelTimes(panel.data(), rows, columns, v.data(),
+                         fetching_z.data(), &last);
+    EXPECT_EQ(fetching_z, z) << rows << " x " << columns;
+  }
+}
+
 }  // namespace
 }  // namespace emmy

@@ -8,10 +8,10 @@ namespace emmy {
 LineElement::LineElement(Kind kind, double length, double stiffness)
     : kind_(kind), length_(length), stiffness_(stiffness) {
   if (kind == Kind::kSpring) return;
-  inverse_square_ = 1.0 / (length * length);
   energy_coefficient_ = stiffness * length;
-  factor_ = energy_coefficient_ * inverse_square_;
-  derivative_ = 0.5 * factor_ * inverse_square_;
+  law_.inverse_square = 1.0 / (length * length);
+  law_.factor = energy_coefficient_ * law_.inverse_square;
+  derivative_ = 0.5 * law_.factor * law_.inverse_square;
 }
 
 LineElement LineElement::Truss(double natural_length, double axial_stiffness) {
@@ -29,23 +29,23 @@ LineElement LineElement::Spring(double natural_length, double stiffness) {
 LineElement::Response LineElement::RespondAsCable(double value,
                                                   double compensation,
                                                   double ds) const {
-  const double increment = inverse_square_ * ds;
+  const double increment = law_.Increment(ds);
   const double start = value + compensation;
   const double end = value + (compensation + increment);
   if (start >= 0.0 && end >= 0.0) {
-    const double mean = value + (compensation + 0.5 * increment);
-    return {increment, factor_ * mean, derivative_};
+    return {increment, law_.TensionFactor(value, compensation, increment),
+            derivative_};
   }
   if (start <= 0.0 && end <= 0.0) return {increment, 0.0, 0.0};
   // Across zero, ε₀ ε₁ < 0, so that the increment cannot be small against
   // the strain that counts.
   if (end > 0.0) {
     const double share = end / increment;  // Of the step spent taut.
-    return {increment, factor_ * (0.5 * end * share),
+    return {increment, law_.factor * (0.5 * end * share),
             derivative_ * share * (2.0 - share)};
   }
   const double share = -start / increment;
-  return {increment, factor_ * (0.5 * start * share),
+  return {increment, law_.factor * (0.5 * start * share),
           derivative_ * share * share};
 }
 

@@ -45,14 +45,25 @@ class EMMY_EXPORT LineElement {
     double derivative;      // dt/dΔs [N/m³], for the tangent only.
   };
 
-  // Response to Δs from the value y₀ and its compensation. Here, since a net
-  // asks this of every truss in every iteration.
+  // (LINE-3) by itself: a net asks it of every truss in every iteration.
+  struct TrussLaw {
+    double inverse_square = 0.0;  // 1/L² [1/m²]
+    double factor = 0.0;          // EA/L [N/m]
+
+    double Increment(double ds) const { return inverse_square * ds; }
+    double TensionFactor(double value, double compensation,
+                         double increment) const {
+      return factor * (value + (compensation + 0.5 * increment));
+    }
+  };
+
+  // Response to Δs from the value y₀ and its compensation.
   Response Respond(double value, double compensation, double ds) const {
     if (kind_ == Kind::kCable) return RespondAsCable(value, compensation, ds);
     if (kind_ == Kind::kSpring) return RespondAsSpring(value, compensation, ds);
-    const double increment = inverse_square_ * ds;
-    const double mean = value + (compensation + 0.5 * increment);
-    return {increment, factor_ * mean, derivative_};
+    const double increment = law_.Increment(ds);
+    return {increment, law_.TensionFactor(value, compensation, increment),
+            derivative_};
   }
 
   // y for the distance `d` between the ends, in extended precision.
@@ -70,7 +81,8 @@ class EMMY_EXPORT LineElement {
 
   Kind kind() const { return kind_; }
   double natural_length() const { return length_; }
-  double stiffness() const { return stiffness_; }  // EA [N]; k [N/m].
+  double stiffness() const { return stiffness_; }     // EA [N]; k [N/m].
+  const TrussLaw& truss_law() const { return law_; }  // Not of springs.
 
  private:
   LineElement(Kind kind, double length, double stiffness);
@@ -81,9 +93,8 @@ class EMMY_EXPORT LineElement {
   Kind kind_;
   double length_;
   double stiffness_;
-  double inverse_square_ = 0.0;      // 1/L², truss and cable.
+  TrussLaw law_;                     // Truss and cable.
   double energy_coefficient_ = 0.0;  // EA L
-  double factor_ = 0.0;              // EA/L
   double derivative_ = 0.0;          // EA/(2 L³)
 };
 

@@ -135,10 +135,14 @@ void CoupledStep::EvaluateConstraints() {
 
 // (EM-1) and the residual of (EM-9) at Δw and Δt λ.
 void CoupledStep::Evaluate() {
-  mean_rate_.noalias() = w0_ + (w0_compensation_ + 0.5 * dw_);
-  dq_.noalias() = time_step_ * mean_rate_;
-  mean_.noalias() = q0_ + (q0_compensation_ + 0.5 * dq_);
-  residual_.setZero();
+  // In one pass: of a large net every array is read from memory.
+  for (Eigen::Index v = 0; v < dw_.cols(); ++v) {
+    mean_rate_.col(v) =
+        w0_.col(v) + (w0_compensation_.col(v) + 0.5 * dw_.col(v));
+    dq_.col(v) = time_step_ * mean_rate_.col(v);
+    mean_.col(v) = q0_.col(v) + (q0_compensation_.col(v) + 0.5 * dq_.col(v));
+    residual_.col(v).setZero();
+  }
   for (const Structure::Mass& mass : structure_->masses) {
     residual_.col(mass.row) += mass.mass * dw_.col(mass.column);
     if (mass.row != mass.column) {
@@ -146,11 +150,13 @@ void CoupledStep::Evaluate() {
     }
   }
   // By terms: inertia and weight may cancel, their rounding does not.
-  magnitude_ = residual_.cwiseAbs().colwise().maxCoeff().transpose();
-  residual_.noalias() -= time_step_ * structure_->gravity_force;
+  for (Eigen::Index v = 0; v < dw_.cols(); ++v) {
+    magnitude_(v) = residual_.col(v).cwiseAbs().maxCoeff();
+    residual_.col(v) -= time_step_ * structure_->gravity_force.col(v);
+  }
   EvaluateBodies();
-  lines_.Evaluate(time_step_, dq_, strain0_, strain0_compensation_,
-                  &strain_increment_, &residual_, &magnitude_);
+  lines_.AddImpulses(time_step_, dq_, strain0_, strain0_compensation_,
+                     &residual_, &magnitude_);
   EvaluateLoads();
   EvaluateConstraints();
 }
@@ -182,8 +188,15 @@ bool CoupledStep::Restore(const KeptTangent& kept) {
   return true;
 }
 
+// Strain increments of the lines; those of the bodies come with Evaluate.
+void CoupledStep::AdvanceLines() {
+  lines_.AdvanceStrains(dq_, strain0_, strain0_compensation_,
+                        &strain_increment_);
+}
+
 bool CoupledStep::Renew() {
   renew_ = false;
+  lines_.Respond(dq_, strain0_, strain0_compensation_);
   return tangent_.Factorize(Point());
 }
 
@@ -195,6 +208,8 @@ bool CoupledStep::SolveCorrection(bool exact) {
                    &impulse_correction_);
     return true;
   }
+  AdvanceLines();
+  lines_.Respond(dq_, strain0_, strain0_compensation_);
   const VectorXd mean_strain =
       strain0_ + (strain0_compensation_ + 0.5 * strain_increment_);
   return SolveExactTangent(
@@ -219,7 +234,9 @@ BodyStepResult CoupledStep::Iterate(bool exact) {
   for (int i = 1; i <= options_.newton.max_iterations; ++i) {
     result.iterations = i;
     Evaluate();
-    end_.noalias() = mean_ + 0.5 * dq_;
+    if (exact || !structure_->bodies.empty()) {
+      end_.noalias() = mean_ + 0.5 * dq_;
+    }
     if (!exact) {
       tangent_.FollowBodies(mean_, end_);
       // A small factor costs less than the iterations it saves.
@@ -380,6 +397,7 @@ bool CoupledStep::KeepsEnergy() const {
 BodyStepResult CoupledStep::IterateAndCheck(bool exact) {
   BodyStepResult result = Iterate(exact);
   Evaluate();  // Δq and Δε of the final Δw.
+  AdvanceLines();
   if (result.termination == Termination::kConverged && !KeepsEnergy()) {
     result.termination = Termination::kMaxIterations;
   }

@@ -74,6 +74,7 @@ class CoupledStep {
   void EvaluateBodies();
   void EvaluateLoads();
   void EvaluateConstraints();
+  void AdvanceLines();
   bool Renew();
   bool SolveCorrection(bool exact);
   BodyStepResult Iterate(bool exact);

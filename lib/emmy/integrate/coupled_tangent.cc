@@ -16,6 +16,17 @@ namespace {
 constexpr std::array<std::pair<int, int>, 6> kGradientBlocks = {
     {{0, 0}, {1, 0}, {1, 1}, {2, 0}, {2, 1}, {2, 2}}};
 
+// Takes a body's columns of `from` to those of `to`: its centre by `centre`,
+// its gradient vectors by `gradients`.
+template <typename From, typename To>
+void TurnBody(int first, const Matrix3d& centre, const Matrix3d& gradients,
+              const From& from, To* to) {
+  to->col(first) = centre * from.col(first);
+  for (int a = 1; a < 4; ++a) {
+    to->col(first + a) = gradients * from.col(first + a);
+  }
+}
+
 }  // namespace
 
 SymmetricBlockMatrix CoupledTangent::MakeMatrix(const Structure& structure) {
@@ -54,14 +65,12 @@ CoupledTangent::CoupledTangent(const Structure& structure, double time_step,
       matrix_(MakeMatrix(structure)),
       factor_(matrix_, structure.constraints.empty(), method) {
   FindSlots();
-  const auto num_vectors = static_cast<size_t>(structure.num_vectors());
-  rotation_.assign(num_vectors, Matrix3d::Identity());
-  left_ = rotation_;
-  right_ = rotation_;
-  in_body_.assign(num_vectors, false);
-  for (const Structure::Body& body : structure.bodies) {
+  frames_.resize(structure.bodies.size());
+  body_of_.assign(static_cast<size_t>(structure.num_vectors()), -1);
+  for (size_t i = 0; i < structure.bodies.size(); ++i) {
     for (int a = 0; a < 4; ++a) {
-      in_body_[static_cast<size_t>(body.first + a)] = true;
+      body_of_[static_cast<size_t>(structure.bodies[i].first + a)] =
+          static_cast<int>(i);
     }
   }
   const Eigen::Index size = 3 * matrix_.num_blocks();
@@ -153,10 +162,10 @@ void CoupledTangent::AddLines(const TangentPoint& point) {
                    2.0 * point.line_derivative(column) * d * d.transpose());
     const std::vector<WeightedVector>& terms = structure_->lines[i].terms;
     for (const WeightedVector& a : terms) {
-      const Matrix3d& left = rotation_[static_cast<size_t>(a.vector)];
+      const Matrix3d& left = Rotation(a.vector);
       for (const WeightedVector& b : terms) {
         if (a.vector < b.vector) continue;
-        const Matrix3d& right = rotation_[static_cast<size_t>(b.vector)];
+        const Matrix3d& right = Rotation(b.vector);
         matrix_.Add(line_slots_[slot++],
                     a.weight * b.weight * left.transpose() * stiffness * right);
       }
@@ -168,10 +177,8 @@ void CoupledTangent::Assemble(const TangentPoint& point) {
   matrix_.SetZero();
   for (size_t i = 0; i < structure_->masses.size(); ++i) {
     const Structure::Mass& mass = structure_->masses[i];
-    matrix_.Add(mass_slots_[i],
-                mass.mass *
-                    rotation_[static_cast<size_t>(mass.row)].transpose() *
-                    rotation_[static_cast<size_t>(mass.column)]);
+    matrix_.Add(mass_slots_[i], mass.mass * Rotation(mass.row).transpose() *
+                                    Rotation(mass.column));
   }
   AddBodies();
   AddLines(point);
@@ -180,13 +187,13 @@ void CoupledTangent::Assemble(const TangentPoint& point) {
     matrix_.Add(constraint_slots_[slot++], -shift_ * Matrix3d::Identity());
     for (const WeightedVector& term : constraint.terms) {
       matrix_.Add(constraint_slots_[slot++],
-                  term.weight * rotation_[static_cast<size_t>(term.vector)]);
+                  term.weight * Rotation(term.vector));
     }
   }
 }
 
 bool CoupledTangent::Factorize(const TangentPoint& point) {
-  TurnNodes(Matrix3d::Identity());
+  turn_.setIdentity();
   Assemble(point);
   ++num_factorizations_;
   is_factorized_ = factor_.Factorize(matrix_);
@@ -206,23 +213,9 @@ bool CoupledTangent::Restore(const KeptTangent& kept) {
   }
   matrix_.SetValues(kept.matrix);
   positions_ = kept.positions;
-  TurnNodes(kept.turn);
+  turn_ = kept.turn;
   is_factorized_ = factor_.Factorize(matrix_);
   return is_factorized_;
-}
-
-void CoupledTangent::TurnNodes(const Matrix3d& turn) {
-  turn_ = turn;
-  for (int v = 0; v < structure_->num_vectors(); ++v) {
-    if (!in_body_[static_cast<size_t>(v)]) SetRotation(v, turn_);
-  }
-}
-
-void CoupledTangent::SetRotation(int vector, const Matrix3d& rotation) {
-  const auto v = static_cast<size_t>(vector);
-  rotation_[v] = rotation;
-  left_[v] = rotation.transpose();
-  right_[v] = rotation;
 }
 
 // The mass-weighted rotation that best takes the positions of the
@@ -256,27 +249,22 @@ void CoupledTangent::FollowStructure(const Matrix3Xd& mean_positions) {
   if ((svd.matrixU() * svd.matrixV().transpose()).determinant() < 0.0) {
     signs(2) = -1.0;
   }
-  TurnNodes(svd.matrixU() * signs.asDiagonal() * svd.matrixV().transpose());
+  turn_ = svd.matrixU() * signs.asDiagonal() * svd.matrixV().transpose();
 }
 
 void CoupledTangent::FollowBodies(const Matrix3Xd& mean_positions,
                                   const Matrix3Xd& end_positions) {
-  for (const Structure::Body& body : structure_->bodies) {
-    const Matrix3d mean = mean_positions.middleCols<3>(body.first + 1);
-    const Matrix3d end = end_positions.middleCols<3>(body.first + 1);
+  for (size_t i = 0; i < frames_.size(); ++i) {
+    const int first = structure_->bodies[i].first;
+    const Matrix3d mean = mean_positions.middleCols<3>(first + 1);
+    const Matrix3d end = end_positions.middleCols<3>(first + 1);
+    BodyFrame& frame = frames_[i];
     // Orthonormal by Gram and Schmidt.
-    Matrix3d rotation;
-    rotation.col(0) = mean.col(0).normalized();
-    rotation.col(2) = mean.col(0).cross(mean.col(1)).normalized();
-    rotation.col(1) = rotation.col(2).cross(rotation.col(0));
-    const Matrix3d left = mean.inverse();
-    const Matrix3d right = end.inverse().transpose();
-    for (int a = 0; a < 4; ++a) {
-      SetRotation(body.first + a, rotation);
-      if (a == 0) continue;
-      left_[static_cast<size_t>(body.first + a)] = left;
-      right_[static_cast<size_t>(body.first + a)] = right;
-    }
+    frame.rotation.col(0) = mean.col(0).normalized();
+    frame.rotation.col(2) = mean.col(0).cross(mean.col(1)).normalized();
+    frame.rotation.col(1) = frame.rotation.col(2).cross(frame.rotation.col(0));
+    frame.left = mean.inverse();
+    frame.right = end.inverse().transpose();
   }
 }
 
@@ -288,15 +276,26 @@ void CoupledTangent::Solve(const Matrix3Xd& residual,
   const Eigen::Index constraints = structure_->num_constraints();
   Eigen::Map<Matrix3Xd> right_side(right_side_.data(), 3,
                                    vectors + constraints);
+  // All as nodes first, then those of bodies again.
+  const Matrix3d back = turn_.transpose();
   for (Eigen::Index v = 0; v < vectors; ++v) {
-    right_side.col(v) = left_[static_cast<size_t>(v)] * residual.col(v);
+    right_side.col(v) = back * residual.col(v);
+  }
+  for (size_t i = 0; i < frames_.size(); ++i) {
+    TurnBody(structure_->bodies[i].first, frames_[i].rotation.transpose(),
+             frames_[i].left, residual, &right_side);
   }
   right_side.rightCols(constraints) = constraint_residual;
   factor_.Solve(right_side_, &solution_);
   const Eigen::Map<const Matrix3Xd> solution(solution_.data(), 3,
                                              vectors + constraints);
+  const Matrix3d turn = turn_;
   for (Eigen::Index v = 0; v < vectors; ++v) {
-    correction->col(v) = right_[static_cast<size_t>(v)] * solution.col(v);
+    correction->col(v) = turn * solution.col(v);
+  }
+  for (size_t i = 0; i < frames_.size(); ++i) {
+    TurnBody(structure_->bodies[i].first, frames_[i].rotation, frames_[i].right,
+             solution, correction);
   }
   *multiplier_correction = solution.rightCols(constraints);
 }

@@ -74,8 +74,11 @@ class CoupledTangent {
   static SymmetricBlockMatrix MakeMatrix(const Structure& structure);
   void FindSlots();
   void Assemble(const TangentPoint& point);
-  void TurnNodes(const Matrix3d& turn);
-  void SetRotation(int vector, const Matrix3d& rotation);
+  // Of the frame of vector `v`.
+  const Matrix3d& Rotation(int v) const {
+    const int body = body_of_[static_cast<size_t>(v)];
+    return body < 0 ? turn_ : frames_[static_cast<size_t>(body)].rotation;
+  }
   void AddBodies();
   void AddLines(const TangentPoint& point);
 
@@ -94,12 +97,18 @@ class CoupledTangent {
     bool translates;
   };
   std::vector<OwnMass> own_masses_;
-  Matrix3Xd positions_;                   // q̄ at the factorisation.
-  Matrix3d turn_ = Matrix3d::Identity();  // Of the whole since then.
-  // Rotations of the vectors' frames, and for the gradient vectors of bodies
-  // Ē⁻¹ and E₁⁻ᵀ, with which the penalty terms are those of the Jacobian.
-  std::vector<Matrix3d> rotation_, left_, right_;
-  std::vector<bool> in_body_;
+  Matrix3Xd positions_;  // q̄ at the factorisation.
+  // Frames of the nodes: the turn of the whole since then.
+  Matrix3d turn_ = Matrix3d::Identity();
+  // Those of a body's vectors, and for its gradient vectors Ē⁻¹ and E₁⁻ᵀ,
+  // with which the penalty terms are those of the Jacobian.
+  struct BodyFrame {
+    Matrix3d rotation = Matrix3d::Identity();
+    Matrix3d left = Matrix3d::Identity();
+    Matrix3d right = Matrix3d::Identity();
+  };
+  std::vector<BodyFrame> frames_;
+  std::vector<int> body_of_;  // Of each vector; −1: a node.
   VectorXd right_side_, solution_;
   bool is_factorized_ = false;
   int num_factorizations_ = 0;

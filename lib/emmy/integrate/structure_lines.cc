@@ -1,86 +1,169 @@
 #include "emmy/integrate/structure_lines.h"
 
-#include <algorithm>
 #include <cmath>
 
 #include "emmy/base/check.h"
 
 namespace emmy {
 
+bool StructureLines::IsStrut(const Structure::Line& line) {
+  return line.line->element.kind() == LineElement::Kind::kTruss &&
+         line.line->difference.ground.isZero(0.0) && line.terms.size() == 2 &&
+         std::abs(line.terms[0].weight) == 1.0 &&
+         line.terms[1].weight == -line.terms[0].weight;
+}
+
 StructureLines::StructureLines(const Structure& structure) {
   const auto lines = static_cast<Eigen::Index>(structure.lines.size());
   ground_.resize(3, lines);
   if (lines > 0) first_strain_ = structure.lines.front().strain;
+  term_begin_.push_back(0);
   for (Eigen::Index i = 0; i < lines; ++i) {
     const Structure::Line& line = structure.lines[static_cast<size_t>(i)];
     EMMY_CHECK(line.strain == first_strain_ + i, line.strain);
     elements_.push_back(line.line->element);
     ground_.col(i) = line.line->difference.ground;
     terms_.insert(terms_.end(), line.terms.begin(), line.terms.end());
-    term_end_.push_back(static_cast<int>(terms_.size()));
+    term_begin_.push_back(terms_.size());
+    const bool is_strut = IsStrut(line);
+    if (is_strut) {
+      const bool forward = line.terms[1].weight > 0.0;
+      struts_.push_back({line.terms[forward ? 0 : 1].vector,
+                         line.terms[forward ? 1 : 0].vector,
+                         line.line->element.truss_law()});
+    }
+    if (sections_.empty() || sections_.back().of_struts != is_strut) {
+      sections_.push_back({.of_struts = is_strut});
+    }
+    sections_.back().end = static_cast<size_t>(i) + 1;
   }
-  for (Matrix3Xd* m : {&start_, &rest_, &mean_}) m->setZero(3, lines);
+  mean_.setZero(3, lines);
   tension_.setZero(lines);
   derivative_.setZero(lines);
 }
 
 void StructureLines::Load(const Matrix3Xd& q0,
                           const Matrix3Xd& q0_compensation) {
-  size_t term = 0;
-  for (size_t i = 0; i < elements_.size(); ++i) {
-    const auto column = static_cast<Eigen::Index>(i);
-    // From the values alone: neighbours' difference is exact or nearly so,
-    // while a difference of means would carry the rounding of large positions.
-    Vector3d start = ground_.col(column);
-    Vector3d rest = Vector3d::Zero();
-    for (; term < static_cast<size_t>(term_end_[i]); ++term) {
-      const auto [vector, weight] = terms_[term];
-      start += weight * q0.col(vector);
-      rest += weight * q0_compensation.col(vector);
+  q0_ = &q0;
+  q0_compensation_ = &q0_compensation;
+}
+
+// From the values alone, then the rest: neighbours' difference is exact or
+// nearly so, while a difference of means would carry the rounding of large
+// positions.
+StructureLines::Difference StructureLines::At(size_t line,
+                                              const Matrix3Xd& dq) const {
+  Vector3d start = ground_.col(static_cast<Eigen::Index>(line));
+  Vector3d rest = Vector3d::Zero();
+  Vector3d change = Vector3d::Zero();
+  for (size_t i = term_begin_[line]; i < term_begin_[line + 1]; ++i) {
+    const auto [vector, weight] = terms_[i];
+    start += weight * q0_->col(vector);
+    rest += weight * q0_compensation_->col(vector);
+    change += weight * dq.col(vector);
+  }
+  return {start + (rest + 0.5 * change), change};
+}
+
+inline StructureLines::Difference StructureLines::AcrossStrut(
+    const Strut& strut, const Matrix3Xd& dq) const {
+  const auto across = [&strut](const Matrix3Xd& q) -> Vector3d {
+    return q.col(strut.to) - q.col(strut.from);
+  };
+  const Vector3d change = across(dq);
+  return {across(*q0_) + (across(*q0_compensation_) + 0.5 * change), change};
+}
+
+// Calls of_strut(strut, its strain) or of_line(line, its strain), in order.
+template <typename OfStrut, typename OfLine>
+void StructureLines::ForEach(const OfStrut& of_strut,
+                             const OfLine& of_line) const {
+  size_t line = 0;
+  Eigen::Index strain = first_strain_;
+  const Strut* strut = struts_.data();
+  for (const Section& section : sections_) {
+    for (; line < section.end; ++line, ++strain) {
+      if (section.of_struts) {
+        of_strut(*strut++, strain);
+      } else {
+        of_line(line, strain);
+      }
     }
-    start_.col(column) = start;
-    rest_.col(column) = rest;
   }
 }
 
-void StructureLines::Evaluate(double time_step, const Matrix3Xd& dq,
-                              const VectorXd& strain0,
-                              const VectorXd& strain0_compensation,
-                              VectorXd* strain_increment, Matrix3Xd* residual,
-                              VectorXd* magnitude) {
-  const WeightedVector* begin = terms_.data();
+void StructureLines::AddImpulses(double time_step, const Matrix3Xd& dq,
+                                 const VectorXd& strain0,
+                                 const VectorXd& strain0_compensation,
+                                 Matrix3Xd* residual,
+                                 VectorXd* magnitude) const {
+  ForEach(
+      [&](const Strut& strut, Eigen::Index strain) {
+        const auto [d, change] = AcrossStrut(strut, dq);
+        const double tension_factor = strut.law.TensionFactor(
+            strain0(strain), strain0_compensation(strain),
+            strut.law.Increment(d.dot(change)));
+        const Vector3d impulse = (time_step * tension_factor) * d;
+        const double size = impulse.cwiseAbs().maxCoeff();
+        residual->col(strut.from) -= impulse;
+        residual->col(strut.to) += impulse;
+        (*magnitude)(strut.from) += size;
+        (*magnitude)(strut.to) += size;
+      },
+      [&](size_t line, Eigen::Index strain) {
+        const auto [d, change] = At(line, dq);
+        const LineElement::Response response = elements_[line].Respond(
+            strain0(strain), strain0_compensation(strain), d.dot(change));
+        const Vector3d impulse = (time_step * response.tension_factor) * d;
+        const double size = impulse.cwiseAbs().maxCoeff();
+        for (size_t i = term_begin_[line]; i < term_begin_[line + 1]; ++i) {
+          const auto [vector, weight] = terms_[i];
+          residual->col(vector) += weight * impulse;
+          (*magnitude)(vector) += std::abs(weight) * size;
+        }
+      });
+}
+
+void StructureLines::AdvanceStrains(const Matrix3Xd& dq,
+                                    const VectorXd& strain0,
+                                    const VectorXd& strain0_compensation,
+                                    VectorXd* strain_increment) const {
+  ForEach(
+      [&](const Strut& strut, Eigen::Index strain) {
+        const auto [d, change] = AcrossStrut(strut, dq);
+        (*strain_increment)(strain) = strut.law.Increment(d.dot(change));
+      },
+      [&](size_t line, Eigen::Index strain) {
+        const auto [d, change] = At(line, dq);
+        (*strain_increment)(strain) =
+            elements_[line]
+                .Respond(strain0(strain), strain0_compensation(strain),
+                         d.dot(change))
+                .increment;
+      });
+}
+
+void StructureLines::Respond(const Matrix3Xd& dq, const VectorXd& strain0,
+                             const VectorXd& strain0_compensation) {
   for (size_t i = 0; i < elements_.size(); ++i) {
-    const WeightedVector* const end = terms_.data() + term_end_[i];
+    const auto [d, change] = At(i, dq);
     const auto column = static_cast<Eigen::Index>(i);
-    Vector3d change = Vector3d::Zero();  // Δd
-    for (const WeightedVector* term = begin; term != end; ++term) {
-      change += term->weight * dq.col(term->vector);
-    }
-    const Vector3d d = start_.col(column) + (rest_.col(column) + 0.5 * change);
     const Eigen::Index strain = first_strain_ + column;
     const LineElement::Response response = elements_[i].Respond(
         strain0(strain), strain0_compensation(strain), d.dot(change));
-    (*strain_increment)(strain) = response.increment;
     mean_.col(column) = d;
     tension_(column) = response.tension_factor;
     derivative_(column) = response.derivative;
-    const Vector3d impulse = (time_step * response.tension_factor) * d;
-    const double size = impulse.cwiseAbs().maxCoeff();
-    for (const WeightedVector* term = begin; term != end; ++term) {
-      residual->col(term->vector) += term->weight * impulse;
-      (*magnitude)(term->vector) += std::abs(term->weight) * size;
-    }
-    begin = end;
   }
 }
 
 Matrix3Xd StructureLines::End(const Matrix3Xd& dq) const {
   Matrix3Xd end = mean_;
-  size_t term = 0;
-  for (size_t i = 0; i < elements_.size(); ++i) {
-    for (; term < static_cast<size_t>(term_end_[i]); ++term) {
-      const auto [vector, weight] = terms_[term];
-      end.col(static_cast<Eigen::Index>(i)) += (0.5 * weight) * dq.col(vector);
+  for (size_t line = 0; line < elements_.size(); ++line) {
+    for (size_t i = term_begin_[line]; i < term_begin_[line + 1]; ++i) {
+      const auto [vector, weight] = terms_[i];
+      end.col(static_cast<Eigen::Index>(line)) +=
+          (0.5 * weight) * dq.col(vector);
     }
   }
   return end;

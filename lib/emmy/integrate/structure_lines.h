@@ -18,30 +18,64 @@ class StructureLines {
  public:
   explicit StructureLines(const Structure& structure);
 
-  // d₀ of the step, from q₀ and its compensation.
+  // Takes q₀ and its compensation, which must stay until the next Load.
   void Load(const Matrix3Xd& q0, const Matrix3Xd& q0_compensation);
 
-  // The response to Δq: adds Δt t φ d̄ (LINE-2) to `residual` and the size of
-  // each such term to `magnitude`, and writes Δy. Strains by local number.
-  void Evaluate(double time_step, const Matrix3Xd& dq, const VectorXd& strain0,
-                const VectorXd& strain0_compensation,
-                VectorXd* strain_increment, Matrix3Xd* residual,
-                VectorXd* magnitude);
+  // Adds Δt t φ d̄ (LINE-2) at Δq to `residual` and the size of each such term
+  // to `magnitude`. Strains by local number.
+  void AddImpulses(double time_step, const Matrix3Xd& dq,
+                   const VectorXd& strain0,
+                   const VectorXd& strain0_compensation, Matrix3Xd* residual,
+                   VectorXd* magnitude) const;
 
-  // Of the last Evaluate, one column or entry a line.
+  // Writes Δy at Δq.
+  void AdvanceStrains(const Matrix3Xd& dq, const VectorXd& strain0,
+                      const VectorXd& strain0_compensation,
+                      VectorXd* strain_increment) const;
+
+  // What a tangent at Δq needs.
+  void Respond(const Matrix3Xd& dq, const VectorXd& strain0,
+               const VectorXd& strain0_compensation);
+
+  // Of the last Respond, one column or entry a line.
   const Matrix3Xd& mean() const { return mean_; }             // d̄ [m]
   const VectorXd& tension() const { return tension_; }        // t [N/m]
   const VectorXd& derivative() const { return derivative_; }  // t' [N/m³]
   Matrix3Xd End(const Matrix3Xd& dq) const;                   // d₁ [m]
 
  private:
+  // A truss from one vector to another, as most lines of a net are: what every
+  // iteration reads of it, and nothing more.
+  struct Strut {
+    int from = 0;
+    int to = 0;
+    LineElement::TrussLaw law;
+  };
+  // Lines one after the other that are struts, or are not.
+  struct Section {
+    bool of_struts = false;
+    size_t end = 0;
+  };
+  struct Difference {
+    Vector3d mean;    // d̄ [m]
+    Vector3d change;  // Δd [m]
+  };
+
+  static bool IsStrut(const Structure::Line& line);
+  Difference At(size_t line, const Matrix3Xd& dq) const;
+  Difference AcrossStrut(const Strut& strut, const Matrix3Xd& dq) const;
+  template <typename OfStrut, typename OfLine>
+  void ForEach(const OfStrut& of_strut, const OfLine& of_line) const;
+
   std::vector<LineElement> elements_;
   std::vector<WeightedVector> terms_;  // Of all lines, one after the other.
-  std::vector<int> term_end_;          // One past the last of each line.
+  std::vector<size_t> term_begin_;     // Of each line, and the end.
   Matrix3Xd ground_;                   // Constant part of d.
-  Eigen::Index first_strain_ = 0;      // Lines' strains follow the bodies'.
-  Matrix3Xd start_;                    // d₀ from the values alone, [m].
-  Matrix3Xd rest_;                     // What the compensations add.
+  std::vector<Strut> struts_;
+  std::vector<Section> sections_;
+  Eigen::Index first_strain_ = 0;  // Lines' strains follow the bodies'.
+  const Matrix3Xd* q0_ = nullptr;
+  const Matrix3Xd* q0_compensation_ = nullptr;
   Matrix3Xd mean_;
   VectorXd tension_, derivative_;
 };

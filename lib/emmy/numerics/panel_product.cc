@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <cstdint>
+#include <type_traits>
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "emmy/numerics/panel_product.cc"
@@ -19,12 +21,24 @@ HWY_BEFORE_NAMESPACE();
 namespace emmy {
 namespace HWY_NAMESPACE {
 
+// Calls product(whether there is a panel to fetch, its address). The address
+// is a number, since what is fetched may go past the end of all panels.
+template <typename Scalar, typename Product>
+HWY_INLINE void WithOrWithoutPrefetch(const Scalar* next,
+                                      const Product& product) {
+  if (next == nullptr) {
+    product(std::false_type(), 0);
+  } else {
+    product(std::true_type(), reinterpret_cast<std::uintptr_t>(next));
+  }
+}
+
 #if HWY_TARGET == HWY_SCALAR
 
 // Without vectors: the order of the sums that the other targets follow.
-template <typename Scalar>
+template <bool kPrefetch, typename Scalar>
 void Times(const Scalar* panel, int rows, int columns, const Scalar* x,
-           Scalar* y) {
+           Scalar* y, std::uintptr_t /*next*/) {
   std::fill_n(y, rows, Scalar(0));
   for (int c = 0; c < columns; ++c) {
     for (int r = 0; r < rows; ++r) y[r] += x[c] * panel[r];
@@ -32,9 +46,9 @@ void Times(const Scalar* panel, int rows, int columns, const Scalar* x,
   }
 }
 
-template <typename Scalar>
+template <bool kPrefetch, typename Scalar>
 void TransposedTimes(const Scalar* panel, int rows, int columns,
-                     const Scalar* x, Scalar* y) {
+                     const Scalar* x, Scalar* y, std::uintptr_t /*next*/) {
   constexpr int kBlock = 64 / static_cast<int>(sizeof(Scalar));
   constexpr int kUnit = kPanelRowUnit<Scalar>;
   const int blocked = rows - rows % kBlock;
@@ -57,16 +71,21 @@ void TransposedTimes(const Scalar* panel, int rows, int columns,
 
 namespace hn = hwy::HWY_NAMESPACE;
 
+// The line of 64 bytes at `address`, to where the next panel will find it.
+HWY_INLINE void PrefetchToSecondLevel(std::uintptr_t address) {
+  __builtin_prefetch(reinterpret_cast<const void*>(address), 0, 2);
+}
+
 // The sums of a block of 64 bytes are kept in as many vectors as it takes.
 template <typename Scalar>
 using Tag = hn::CappedTag<Scalar, 64 / sizeof(Scalar)>;
 template <typename Scalar>
 using QuarterTag = hn::FixedTag<Scalar, 16 / sizeof(Scalar)>;
 
-template <typename Scalar, int kBlocks>
+template <typename Scalar, int kBlocks, bool kPrefetch>
 HWY_INLINE void TimesRows(const Scalar* HWY_RESTRICT panel, int rows,
                           int columns, const Scalar* HWY_RESTRICT x,
-                          Scalar* HWY_RESTRICT y) {
+                          Scalar* HWY_RESTRICT y, std::uintptr_t next) {
   const Tag<Scalar> tag;
   constexpr int kLanes = static_cast<int>(hn::MaxLanes(Tag<Scalar>()));
   constexpr int kVectors =
@@ -74,6 +93,9 @@ HWY_INLINE void TimesRows(const Scalar* HWY_RESTRICT panel, int rows,
   hn::Vec<Tag<Scalar>> sum[size_t{kVectors}];
   for (auto& s : sum) s = hn::Zero(tag);
   for (int c = 0; c < columns; ++c) {
+    if constexpr (kPrefetch) {
+      for (int k = 0; k < kBlocks; ++k, next += 64) PrefetchToSecondLevel(next);
+    }
     const auto factor = hn::Set(tag, x[c]);
     for (int k = 0; k < kVectors; ++k) {
       sum[k] =
@@ -84,16 +106,20 @@ HWY_INLINE void TimesRows(const Scalar* HWY_RESTRICT panel, int rows,
   for (int k = 0; k < kVectors; ++k) hn::StoreU(sum[k], tag, y + k * kLanes);
 }
 
-template <typename Scalar>
+template <bool kPrefetch, typename Scalar>
 HWY_INLINE void Times(const Scalar* HWY_RESTRICT panel, int rows, int columns,
-                      const Scalar* HWY_RESTRICT x, Scalar* HWY_RESTRICT y) {
+                      const Scalar* HWY_RESTRICT x, Scalar* HWY_RESTRICT y,
+                      std::uintptr_t next) {
   constexpr int kBlock = 64 / static_cast<int>(sizeof(Scalar));
+  const size_t bytes = size_t{64} * static_cast<size_t>(columns);  // A block.
   int row = 0;
-  for (; row + 4 * kBlock <= rows; row += 4 * kBlock) {
-    TimesRows<Scalar, 4>(panel + row, rows, columns, x, y + row);
+  for (; row + 4 * kBlock <= rows; row += 4 * kBlock, next += 4 * bytes) {
+    TimesRows<Scalar, 4, kPrefetch>(panel + row, rows, columns, x, y + row,
+                                    next);
   }
-  for (; row + kBlock <= rows; row += kBlock) {
-    TimesRows<Scalar, 1>(panel + row, rows, columns, x, y + row);
+  for (; row + kBlock <= rows; row += kBlock, next += bytes) {
+    TimesRows<Scalar, 1, kPrefetch>(panel + row, rows, columns, x, y + row,
+                                    next);
   }
   const QuarterTag<Scalar> tag;
   for (; row < rows; row += kPanelRowUnit<Scalar>) {
@@ -129,10 +155,10 @@ HWY_INLINE hn::Vec<QuarterTag<Scalar>> Quarter(hn::Vec<Tag<Scalar>>* sum) {
   }
 }
 
-template <typename Scalar, int kColumns>
+template <typename Scalar, int kColumns, bool kPrefetch>
 HWY_INLINE void TransposedColumns(const Scalar* HWY_RESTRICT panel, int rows,
                                   const Scalar* HWY_RESTRICT x,
-                                  Scalar* HWY_RESTRICT y) {
+                                  Scalar* HWY_RESTRICT y, std::uintptr_t next) {
   const Tag<Scalar> tag;
   const QuarterTag<Scalar> quarter_tag;
   constexpr int kLanes = static_cast<int>(hn::MaxLanes(Tag<Scalar>()));
@@ -145,6 +171,11 @@ HWY_INLINE void TransposedColumns(const Scalar* HWY_RESTRICT panel, int rows,
   }
   int row = 0;
   for (; row + kBlock <= rows; row += kBlock) {
+    if constexpr (kPrefetch) {
+      for (int c = 0; c < kColumns; ++c, next += 64) {
+        PrefetchToSecondLevel(next);
+      }
+    }
     for (int k = 0; k < kVectors; ++k) {
       const auto factor = hn::LoadU(tag, x + row + k * kLanes);
       for (int c = 0; c < kColumns; ++c) {
@@ -178,38 +209,49 @@ HWY_INLINE void TransposedColumns(const Scalar* HWY_RESTRICT panel, int rows,
   }
 }
 
-template <typename Scalar>
+template <bool kPrefetch, typename Scalar>
 HWY_INLINE void TransposedTimes(const Scalar* HWY_RESTRICT panel, int rows,
                                 int columns, const Scalar* HWY_RESTRICT x,
-                                Scalar* HWY_RESTRICT y) {
+                                Scalar* HWY_RESTRICT y, std::uintptr_t next) {
+  const size_t bytes = sizeof(Scalar) * static_cast<size_t>(rows);  // A column.
   int column = 0;
-  for (; column + 4 <= columns; column += 4) {
-    TransposedColumns<Scalar, 4>(panel + static_cast<ptrdiff_t>(column) * rows,
-                                 rows, x, y + column);
+  for (; column + 4 <= columns; column += 4, next += 4 * bytes) {
+    TransposedColumns<Scalar, 4, kPrefetch>(
+        panel + static_cast<ptrdiff_t>(column) * rows, rows, x, y + column,
+        next);
   }
-  for (; column < columns; ++column) {
-    TransposedColumns<Scalar, 1>(panel + static_cast<ptrdiff_t>(column) * rows,
-                                 rows, x, y + column);
+  for (; column < columns; ++column, next += bytes) {
+    TransposedColumns<Scalar, 1, kPrefetch>(
+        panel + static_cast<ptrdiff_t>(column) * rows, rows, x, y + column,
+        next);
   }
 }
 
 #endif  // HWY_TARGET == HWY_SCALAR
 
 void TimesFloat(const float* panel, int rows, int columns, const float* x,
-                float* y) {
-  Times(panel, rows, columns, x, y);
+                float* y, const float* next) {
+  WithOrWithoutPrefetch(next, [&](auto prefetch, std::uintptr_t address) {
+    Times<prefetch>(panel, rows, columns, x, y, address);
+  });
 }
 void TimesDouble(const double* panel, int rows, int columns, const double* x,
-                 double* y) {
-  Times(panel, rows, columns, x, y);
+                 double* y, const double* next) {
+  WithOrWithoutPrefetch(next, [&](auto prefetch, std::uintptr_t address) {
+    Times<prefetch>(panel, rows, columns, x, y, address);
+  });
 }
 void TransposedTimesFloat(const float* panel, int rows, int columns,
-                          const float* x, float* y) {
-  TransposedTimes(panel, rows, columns, x, y);
+                          const float* x, float* y, const float* next) {
+  WithOrWithoutPrefetch(next, [&](auto prefetch, std::uintptr_t address) {
+    TransposedTimes<prefetch>(panel, rows, columns, x, y, address);
+  });
 }
 void TransposedTimesDouble(const double* panel, int rows, int columns,
-                           const double* x, double* y) {
-  TransposedTimes(panel, rows, columns, x, y);
+                           const double* x, double* y, const double* next) {
+  WithOrWithoutPrefetch(next, [&](auto prefetch, std::uintptr_t address) {
+    TransposedTimes<prefetch>(panel, rows, columns, x, y, address);
+  });
 }
 
 }  // namespace HWY_NAMESPACE
@@ -225,20 +267,20 @@ HWY_EXPORT(TransposedTimesFloat);
 HWY_EXPORT(TransposedTimesDouble);
 
 void PanelTimes(const float* panel, int rows, int columns, const float* x,
-                float* y) {
-  HWY_DYNAMIC_DISPATCH(TimesFloat)(panel, rows, columns, x, y);
+                float* y, const float* next) {
+  HWY_DYNAMIC_DISPATCH(TimesFloat)(panel, rows, columns, x, y, next);
 }
 void PanelTimes(const double* panel, int rows, int columns, const double* x,
-                double* y) {
-  HWY_DYNAMIC_DISPATCH(TimesDouble)(panel, rows, columns, x, y);
+                double* y, const double* next) {
+  HWY_DYNAMIC_DISPATCH(TimesDouble)(panel, rows, columns, x, y, next);
 }
 void TransposedPanelTimes(const float* panel, int rows, int columns,
-                          const float* x, float* y) {
-  HWY_DYNAMIC_DISPATCH(TransposedTimesFloat)(panel, rows, columns, x, y);
+                          const float* x, float* y, const float* next) {
+  HWY_DYNAMIC_DISPATCH(TransposedTimesFloat)(panel, rows, columns, x, y, next);
 }
 void TransposedPanelTimes(const double* panel, int rows, int columns,
-                          const double* x, double* y) {
-  HWY_DYNAMIC_DISPATCH(TransposedTimesDouble)(panel, rows, columns, x, y);
+                          const double* x, double* y, const double* next) {
+  HWY_DYNAMIC_DISPATCH(TransposedTimesDouble)(panel, rows, columns, x, y, next);
 }
 
 }  // namespace emmy

@@ -18,16 +18,21 @@ inline constexpr int kPanelRowUnit = 16 / static_cast<int>(sizeof(Scalar));
 
 // y = P x. P is `rows` × `columns`, by columns, without gaps; `rows` is a
 // multiple of kPanelRowUnit. No alignment is needed; y must not overlap.
+// While P is read, as much is fetched into the cache from `next` on: where the
+// panel lies that is wanted after this one. Null: nothing is; where all panels
+// stay in the cache, that is faster.
 void PanelTimes(const float* panel, int rows, int columns, const float* x,
-                float* y);
+                float* y, const float* next = nullptr);
 void PanelTimes(const double* panel, int rows, int columns, const double* x,
-                double* y);
+                double* y, const double* next = nullptr);
 
 // y = Pᵀ x, likewise; x has `rows` entries.
 void TransposedPanelTimes(const float* panel, int rows, int columns,
-                          const float* x, float* y);
+                          const float* x, float* y,
+                          const float* next = nullptr);
 void TransposedPanelTimes(const double* panel, int rows, int columns,
-                          const double* x, double* y);
+                          const double* x, double* y,
+                          const double* next = nullptr);
 
 }  // namespace emmy
 

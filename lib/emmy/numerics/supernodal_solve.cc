@@ -70,7 +70,7 @@ template <typename Scalar>
 void SupernodalSolve<Scalar>::Analyze(const SparseMatrix& lower,
                                       const Permutation& order) {
   FindSupernodes(lower);
-  rows_.clear();
+  runs_.clear();
   size_t panel_size = 0;
   int most = 0;
   for (Supernode& node : supernodes_) {
@@ -79,15 +79,24 @@ void SupernodalSolve<Scalar>::Analyze(const SparseMatrix& lower,
     const int end = lower.outerIndexPtr()[last + 1];
     node.rows = end - begin;
     node.height = Padded<Scalar>(node.columns + node.rows);
-    node.row_start = rows_.size();
     node.panel_start = panel_size;
-    rows_.insert(rows_.end(), lower.innerIndexPtr() + begin,
-                 lower.innerIndexPtr() + end);
+    node.first_run = runs_.size();
+    for (int k = begin; k < end; ++k) {
+      const int row = lower.innerIndexPtr()[k];
+      if (k > begin && row == lower.innerIndexPtr()[k - 1] + 1) {
+        ++runs_.back().count;
+      } else {
+        runs_.push_back({row, 1});
+      }
+    }
+    node.end_run = runs_.size();
     panel_size +=
         static_cast<size_t>(node.height) * static_cast<size_t>(node.columns);
     most = std::max(most, node.height);
   }
   panels_.assign(panel_size, Scalar(0));
+  constexpr size_t kLargeFactor = size_t{8} << 20;  // Bytes.
+  fetches_ahead_ = panel_size * sizeof(Scalar) > kLargeFactor;
   place_.assign(static_cast<size_t>(lower.cols()), 0);
   inverse_diagonal_.resize(lower.cols());
   work_.resize(lower.cols());
@@ -101,9 +110,11 @@ void SupernodalSolve<Scalar>::UpdatePanel(const SparseMatrix& lower,
   for (int c = 0; c < node.columns; ++c) {
     place_[static_cast<size_t>(node.first + c)] = c;
   }
-  for (int r = 0; r < node.rows; ++r) {
-    const int row = rows_[node.row_start + static_cast<size_t>(r)];
-    place_[static_cast<size_t>(row)] = node.columns + r;
+  int place = node.columns;
+  for (size_t i = node.first_run; i < node.end_run; ++i) {
+    for (int r = 0; r < runs_[i].count; ++r) {
+      place_[static_cast<size_t>(runs_[i].first + r)] = place++;
+    }
   }
   full_panel_.setZero(node.height, node.columns);
   for (int c = 0; c < node.columns; ++c) {
@@ -146,28 +157,37 @@ void SupernodalSolve<Scalar>::Solve(const VectorXd& b, VectorXd* x) {
     work_(order_(i)) = static_cast<Scalar>(b(i) * to_unit);
   }
   Scalar* const gathered = gathered_.data();
-  for (const Supernode& node : supernodes_) {
+  for (size_t n = 0; n < supernodes_.size(); ++n) {
+    const Supernode& node = supernodes_[n];
     Scalar* const head = work_.data() + node.first;
-    PanelTimes(panels_.data() + node.panel_start, node.height, node.columns,
-               head, gathered);
+    PanelTimes(
+        Panel(n), node.height, node.columns, head, gathered,
+        fetches_ahead_ && n + 1 < supernodes_.size() ? Panel(n + 1) : nullptr);
     std::copy_n(gathered, node.columns, head);
-    const int* rows = rows_.data() + node.row_start;
     const Scalar* update = gathered + node.columns;
-    for (int r = 0; r < node.rows; ++r) work_(rows[r]) -= update[r];
+    for (size_t i = node.first_run; i < node.end_run; ++i) {
+      const auto [first, count] = runs_[i];
+      Scalar* const target = work_.data() + first;
+      for (int r = 0; r < count; ++r) target[r] -= update[r];
+      update += count;
+    }
   }
   work_.array() *= inverse_diagonal_.array();
-  for (auto it = supernodes_.rbegin(); it != supernodes_.rend(); ++it) {
-    const Supernode& node = *it;
+  for (size_t n = supernodes_.size(); n-- > 0;) {
+    const Supernode& node = supernodes_[n];
     Scalar* const head = work_.data() + node.first;
     std::copy_n(head, node.columns, gathered);
-    const int* rows = rows_.data() + node.row_start;
-    Scalar* const below = gathered + node.columns;
-    for (int r = 0; r < node.rows; ++r) below[r] = -work_(rows[r]);
+    Scalar* below = gathered + node.columns;
+    for (size_t i = node.first_run; i < node.end_run; ++i) {
+      const auto [first, count] = runs_[i];
+      const Scalar* const source = work_.data() + first;
+      for (int r = 0; r < count; ++r) below[r] = -source[r];
+      below += count;
+    }
     // What is left from other panels must not meet the padding's zeros.
-    std::fill(gathered + node.columns + node.rows, gathered + node.height,
-              Scalar(0));
-    TransposedPanelTimes(panels_.data() + node.panel_start, node.height,
-                         node.columns, gathered, head);
+    std::fill(below, gathered + node.height, Scalar(0));
+    TransposedPanelTimes(Panel(n), node.height, node.columns, gathered, head,
+                         fetches_ahead_ && n > 0 ? Panel(n - 1) : nullptr);
   }
   x->resize(size);
   for (Eigen::Index i = 0; i < size; ++i) {

@@ -48,22 +48,31 @@ class SupernodalSolve {
  private:
   using Vector = Eigen::Matrix<Scalar, Eigen::Dynamic, 1>;
   struct Supernode {
-    int first = 0;           // Column of L.
-    int columns = 0;         // How many.
-    int rows = 0;            // Below the square block on the diagonal.
-    int height = 0;          // columns + rows, padded.
-    size_t row_start = 0;    // In rows_.
+    int first = 0;         // Column of L.
+    int columns = 0;       // How many.
+    int rows = 0;          // Below the square block on the diagonal.
+    int height = 0;        // columns + rows, padded.
+    size_t first_run = 0;  // In runs_: which rows.
+    size_t end_run = 0;
     size_t panel_start = 0;  // In panels_: height × columns.
+  };
+  struct Run {  // Rows one after the other.
+    int first = 0;
+    int count = 0;
   };
 
   void FindSupernodes(const SparseMatrix& lower);
   void UpdatePanel(const SparseMatrix& lower, const Supernode& node);
+  const Scalar* Panel(size_t supernode) const {
+    return panels_.data() + supernodes_[supernode].panel_start;
+  }
 
   std::vector<Supernode> supernodes_;
-  std::vector<int> rows_;
+  std::vector<Run> runs_;
   std::vector<Scalar> panels_;
-  std::vector<int> place_;  // Of a row of L in the panel at hand.
-  MatrixXd full_panel_;     // In double precision, before rounding.
+  bool fetches_ahead_ = false;  // Panels do not stay in the cache.
+  std::vector<int> place_;      // Of a row of L in the panel at hand.
+  MatrixXd full_panel_;         // In double precision, before rounding.
   Vector inverse_diagonal_, work_, gathered_;
   Eigen::VectorXi order_;
 };
