@@ -276,6 +276,10 @@ INSTANTIATE_TEST_SUITE_P(
                  "--steps: must be a whole number >= 0 [steps], got -5"},
         WrongUse{"HalfASteps", "run box.json --steps 0.5 -o out",
                  "--steps: must be a whole number >= 0 [steps], got 0.5"},
+        WrongUse{"NoThreads", "run box.json --threads 0 -o out",
+                 "--threads: must be a whole number from 1 to 1024, got 0"},
+        WrongUse{"ThreadsOfNoNumber", "run box.json --threads two -o out",
+                 "--threads: must be a whole number from 1 to 1024, got two"},
         WrongUse{"SetWithoutValue", "run box.json --set", "--set"}),
     [](const auto& use) { return std::string(use.param.name); });
 

@@ -101,6 +101,18 @@ TEST_F(RunTest, GivesTheSameHistoryEachTime) {
 }
 
 // Steps of 100 s with a body that turns by 99 rad in each cannot converge.
+// 66 x 66 nodes are enough to be shared out (VectorBlocks).
+TEST_F(RunTest, ThreadsChangeNoBitOfTheHistory) {
+  EXPECT_EQ(Run("generate net --size 66 --output net.json").exit_status, 0);
+  EXPECT_EQ(Run("run net.json --steps 3 --quiet --output alone").exit_status,
+            0);
+  EXPECT_EQ(Run("run net.json --steps 3 --quiet --threads 2 --output shared")
+                .exit_status,
+            0);
+  // Not EXPECT_EQ: a failure would print both files.
+  EXPECT_TRUE(Read("alone/history.csv") == Read("shared/history.csv"));
+}
+
 TEST_F(RunTest, AFailedRunKeepsItsHistoryAndSaysSo) {
   const ProgramResult result =
       Run("run box.json --output out --steps 5 --set /integrator/time_step=100 "

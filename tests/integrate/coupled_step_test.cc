@@ -115,6 +115,54 @@ TEST(CoupledStepTest, DenseAndSparseFactorsGiveTheSameMotion) {
   EXPECT_LE(LargestDifference(dense.state(), sparse.state()), 1e-12);
 }
 
+// Four rows of nodes, 4400 in all: enough to be divided up.
+ModelDescription LongStrip() {
+  constexpr int kRows = 4;
+  constexpr int kColumns = 1100;
+  ModelDescription model;
+  const auto name = [](int i, int j) { return absl::StrCat(i, "-", j); };
+  const Vector3d omega(0.001, 0.0, 0.002);
+  for (int i = 0; i < kColumns; ++i) {
+    for (int j = 0; j < kRows; ++j) {
+      const Vector3d position(i - 0.5 * kColumns, j, 0.01 * (i % 3));
+      model.nodes.push_back(
+          TestNode(name(i, j), 0.1, position, omega.cross(position)));
+    }
+  }
+  const auto tie = [&](int i, int j, int k, int l) {
+    if (k >= kColumns || l < 0 || l >= kRows) return;
+    model.trusses.push_back(TestTruss(absl::StrCat(name(i, j), " ", name(k, l)),
+                                      NodePoint{name(i, j)},
+                                      NodePoint{name(k, l)}));
+  };
+  for (int i = 0; i < kColumns; ++i) {
+    for (int j = 0; j < kRows; ++j) {
+      tie(i, j, i + 1, j);
+      tie(i, j, i, j + 1);
+      tie(i, j, i + 1, j + 1);
+      tie(i, j, i + 1, j - 1);
+    }
+  }
+  // Something that is not a truss between nodes, in the middle.
+  model.springs.push_back(
+      {"spring", {NodePoint{name(0, 0)}, NodePoint{name(5, 3)}}, 2e4, 1.0});
+  return model;
+}
+
+TEST(CoupledStepTest, BitsDoNotDependOnTheNumberOfThreads) {
+  const ModelDescription strip = LongStrip();
+  TestRun alone(strip, IntegratorOptions{.time_step = 1e-3});
+  const InvariantMonitor monitor = alone.Watch(5);
+  EXPECT_LE(monitor.energy().max_relative_error(), kKept);
+  EXPECT_LE(monitor.angular_momentum().max_relative_error(), kKept);
+  for (const int threads : {2, 3}) {
+    TestRun shared(
+        strip, IntegratorOptions{.time_step = 1e-3, .num_threads = threads});
+    ASSERT_TRUE(shared.Advance(5));
+    EXPECT_EQ(LargestDifference(shared.state(), alone.state()), 0.0) << threads;
+  }
+}
+
 TEST(CoupledStepTest, RunsBackToTheStart) {
   TestRun run(Tangle(), 1e-3);
   const State start = run.state();

@@ -65,9 +65,9 @@ class Equations {
           kTimeStep * body.body->ancf()->InternalForce(mean, strain);
     }
     VectorXd magnitude = VectorXd::Zero(structure_.num_vectors());
-    lines_.AddImpulses(kTimeStep, dq_, strain0_, no_strain_, &residual,
+    lines_.AddImpulses(kTimeStep, dq_, strain0_, no_strain_, &team_, &residual,
                        &magnitude);
-    lines_.AdvanceStrains(dq_, strain0_, no_strain_, &increment_);
+    lines_.AdvanceStrains(dq_, strain0_, no_strain_, &team_, &increment_);
     lines_.Respond(dq_, strain0_, no_strain_);
     return residual;
   }
@@ -90,6 +90,7 @@ class Equations {
  private:
   const Structure& structure_;
   StructureLines lines_;
+  WorkTeam team_{1};
   Matrix3Xd q0_, w0_, none_, dq_, mean_;
   VectorXd strain0_, no_strain_, increment_;
 };

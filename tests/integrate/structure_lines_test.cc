@@ -93,22 +93,24 @@ TEST_F(StructureLinesTest, AddsTheImpulseOfEveryLineInOrder) {
       expected_size(vector) += std::abs(weight) * impulse.cwiseAbs().maxCoeff();
     }
   }
+  WorkTeam team(1);
   StructureLines lines(structure);
   lines.Load(q0_, q0_compensation_);
   Matrix3Xd residual = Matrix3Xd::Zero(3, structure.num_vectors());
   VectorXd magnitude = VectorXd::Zero(structure.num_vectors());
-  lines.AddImpulses(kTimeStep, dq_, strain0_, strain0_compensation_, &residual,
-                    &magnitude);
+  lines.AddImpulses(kTimeStep, dq_, strain0_, strain0_compensation_, &team,
+                    &residual, &magnitude);
   EXPECT_EQ(residual, expected);
   EXPECT_EQ(magnitude, expected_size);
 }
 
 TEST_F(StructureLinesTest, AdvancesStrainsAndRespondsLikeTheElements) {
   const Structure& structure = structures_[0];
+  WorkTeam team(1);
   StructureLines lines(structure);
   lines.Load(q0_, q0_compensation_);
   VectorXd increment = VectorXd::Zero(strain0_.size());
-  lines.AdvanceStrains(dq_, strain0_, strain0_compensation_, &increment);
+  lines.AdvanceStrains(dq_, strain0_, strain0_compensation_, &team, &increment);
   lines.Respond(dq_, strain0_, strain0_compensation_);
   for (size_t i = 0; i < structure.lines.size(); ++i) {
     const Structure::Line& line = structure.lines[i];

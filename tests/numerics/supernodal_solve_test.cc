@@ -128,5 +128,58 @@ TYPED_TEST(SupernodalSolveTest, SolvesForAnySizeOfTheRightSide) {
   }
 }
 
+// A factor that counts as large is solved in parts, whatever its size.
+TYPED_TEST(SupernodalSolveTest, SolvesInParts) {
+  for (const int size : {2, 5, 12, 30}) {
+    const SparseMatrix matrix = Grid(size, 5);
+    const Factor factor(matrix);
+    SupernodalSolve<TypeParam> solve;
+    solve.Analyze(factor.lower(), factor.ldlt.permutationP(),
+                  /*large_factor=*/0);
+    EXPECT_GT(solve.num_parts(), 0U);
+    solve.Update(factor.lower(), factor.ldlt.vectorD());
+    EXPECT_LE(this->Error(matrix, &solve), this->Bound(matrix)) << size;
+  }
+}
+
+TYPED_TEST(SupernodalSolveTest, SmallFactorsAreNotDividedUp) {
+  const SparseMatrix matrix = Grid(30, 5);
+  const Factor factor(matrix);
+  SupernodalSolve<TypeParam> solve;
+  solve.Analyze(factor.lower(), factor.ldlt.permutationP());
+  EXPECT_EQ(solve.num_parts(), 0U);
+}
+
+// A forest: trees that do not meet have no common top.
+TYPED_TEST(SupernodalSolveTest, SolvesUnconnectedUnknownsInParts) {
+  SparseMatrix matrix(50, 50);
+  matrix.setIdentity();
+  matrix *= 10.0;
+  const Factor factor(matrix);
+  SupernodalSolve<TypeParam> solve;
+  solve.Analyze(factor.lower(), factor.ldlt.permutationP(), 0);
+  solve.Update(factor.lower(), factor.ldlt.vectorD());
+  EXPECT_LE(this->Error(matrix, &solve), this->Bound(matrix));
+}
+
+TYPED_TEST(SupernodalSolveTest, BitsDoNotDependOnTheNumberOfThreads) {
+  const SparseMatrix matrix = Grid(40, 5);
+  const Factor factor(matrix);
+  SupernodalSolve<TypeParam> solve;
+  solve.Analyze(factor.lower(), factor.ldlt.permutationP(), 0);
+  solve.Update(factor.lower(), factor.ldlt.vectorD());
+  const VectorXd b = VectorXd::LinSpaced(matrix.rows(), -1.0, 2.0);
+  VectorXd alone;
+  solve.Solve(b, &alone);
+  for (const size_t threads : {1U, 2U, 3U, 11U}) {
+    WorkTeam team(threads);
+    for (int repetition = 0; repetition < 3; ++repetition) {
+      VectorXd x;
+      solve.Solve(b, &x, &team);
+      EXPECT_EQ(x, alone) << threads;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace emmy

@@ -9,12 +9,20 @@
 
 #include "absl/strings/str_cat.h"
 #include "emmy/integrate/exact_tangent.h"
+#include "emmy/integrate/vector_blocks.h"
 #include "emmy/numerics/rotation.h"
 
 namespace emmy {
 namespace {
 
 constexpr double kUnitRoundoff = std::numeric_limits<double>::epsilon() / 2.0;
+
+// More than one where the structure is large.
+size_t NumThreads(const Structure& structure, int wanted) {
+  return VectorBlocks(structure.num_vectors()).count() == 0
+             ? 1
+             : static_cast<size_t>(wanted);
+}
 
 // NaN if any entry is.
 double MaxAbs(const Matrix3Xd& m) {
@@ -29,6 +37,8 @@ CoupledStep::CoupledStep(const Structure& structure, double time_step,
       time_step_(time_step),
       options_(options),
       tangent_(structure, time_step, options.method),
+      team_(std::make_unique<WorkTeam>(
+          NumThreads(structure, options.num_threads))),
       lines_(structure) {
   const Eigen::Index vectors = structure.num_vectors();
   const Eigen::Index constraints = structure.num_constraints();
@@ -46,9 +56,36 @@ CoupledStep::CoupledStep(const Structure& structure, double time_step,
   for (VectorXd* v : {&strain0_, &strain0_compensation_, &strain_increment_}) {
     v->setZero(strains);
   }
+  SortMasses();
   if (!options.always_factorize && LinedBodyLanes::Fits(structure)) {
     lanes_.emplace(structure, time_step, options.newton);
   }
+}
+
+void CoupledStep::SortMasses() {
+  const VectorBlocks blocks(structure_->num_vectors());
+  std::vector<std::vector<Structure::Mass>> of_block(blocks.count());
+  std::vector<Structure::Mass> rest;
+  for (const Structure::Mass& mass : structure_->masses) {
+    const std::optional<size_t> block = blocks.Common(mass.row, mass.column);
+    (block.has_value() ? of_block[*block] : rest).push_back(mass);
+  }
+  for (const std::vector<Structure::Mass>& masses : of_block) {
+    masses_.insert(masses_.end(), masses.begin(), masses.end());
+    block_end_.push_back(masses_.size());
+  }
+  masses_.insert(masses_.end(), rest.begin(), rest.end());
+}
+
+// Calls work(v) for every vector, by all threads.
+template <typename Work>
+void CoupledStep::ForVectors(const Work& work) {
+  team_->Run(static_cast<size_t>(structure_->num_vectors()),
+             [&work](size_t /*member*/, size_t first, size_t end) {
+               for (size_t v = first; v < end; ++v) {
+                 work(static_cast<Eigen::Index>(v));
+               }
+             });
 }
 
 // Of a constraint's force in the state.
@@ -133,30 +170,46 @@ void CoupledStep::EvaluateConstraints() {
   }
 }
 
+// M Δw
+void CoupledStep::EvaluateInertia() {
+  const auto add = [this](size_t first, size_t end) {
+    for (size_t i = first; i < end; ++i) {
+      const auto& [row, column, mass] = masses_[i];
+      residual_.col(row) += mass * dw_.col(column);
+      if (row != column) residual_.col(column) += mass * dw_.col(row);
+    }
+  };
+  size_t rest = 0;
+  if (!block_end_.empty()) {
+    team_->Run(block_end_.size(),
+               [&](size_t /*member*/, size_t first, size_t end) {
+                 add(first == 0 ? 0 : block_end_[first - 1],
+                     end == 0 ? 0 : block_end_[end - 1]);
+               });
+    rest = block_end_.back();
+  }
+  add(rest, masses_.size());
+}
+
 // (EM-1) and the residual of (EM-9) at Δw and Δt λ.
 void CoupledStep::Evaluate() {
   // In one pass: of a large net every array is read from memory.
-  for (Eigen::Index v = 0; v < dw_.cols(); ++v) {
+  ForVectors([this](Eigen::Index v) {
     mean_rate_.col(v) =
         w0_.col(v) + (w0_compensation_.col(v) + 0.5 * dw_.col(v));
     dq_.col(v) = time_step_ * mean_rate_.col(v);
     mean_.col(v) = q0_.col(v) + (q0_compensation_.col(v) + 0.5 * dq_.col(v));
     residual_.col(v).setZero();
-  }
-  for (const Structure::Mass& mass : structure_->masses) {
-    residual_.col(mass.row) += mass.mass * dw_.col(mass.column);
-    if (mass.row != mass.column) {
-      residual_.col(mass.column) += mass.mass * dw_.col(mass.row);
-    }
-  }
+  });
+  EvaluateInertia();
   // By terms: inertia and weight may cancel, their rounding does not.
-  for (Eigen::Index v = 0; v < dw_.cols(); ++v) {
+  ForVectors([this](Eigen::Index v) {
     magnitude_(v) = residual_.col(v).cwiseAbs().maxCoeff();
     residual_.col(v) -= time_step_ * structure_->gravity_force.col(v);
-  }
+  });
   EvaluateBodies();
   lines_.AddImpulses(time_step_, dq_, strain0_, strain0_compensation_,
-                     &residual_, &magnitude_);
+                     team_.get(), &residual_, &magnitude_);
   EvaluateLoads();
   EvaluateConstraints();
 }
@@ -190,7 +243,7 @@ bool CoupledStep::Restore(const KeptTangent& kept) {
 
 // Strain increments of the lines; those of the bodies come with Evaluate.
 void CoupledStep::AdvanceLines() {
-  lines_.AdvanceStrains(dq_, strain0_, strain0_compensation_,
+  lines_.AdvanceStrains(dq_, strain0_, strain0_compensation_, team_.get(),
                         &strain_increment_);
 }
 
@@ -205,7 +258,7 @@ bool CoupledStep::SolveCorrection(bool exact) {
   constraint_rate_ *= 2.0;
   if (!exact) {
     tangent_.Solve(residual_, constraint_rate_, &correction_,
-                   &impulse_correction_);
+                   &impulse_correction_, team_.get());
     return true;
   }
   AdvanceLines();
@@ -267,7 +320,7 @@ BodyStepResult CoupledStep::Iterate(bool exact) {
       result.termination = Termination::kSingularTangent;
       return result;
     }
-    dw_ -= correction_;
+    ForVectors([this](Eigen::Index v) { dw_.col(v) -= correction_.col(v); });
     impulse_ -= impulse_correction_;
     result.correction = MaxAbs(correction_);
     // An iterate that has run away can make corrections vanish: what it is

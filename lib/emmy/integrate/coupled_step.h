@@ -19,10 +19,13 @@
 #ifndef EMMY_INTEGRATE_COUPLED_STEP_H_
 #define EMMY_INTEGRATE_COUPLED_STEP_H_
 
+#include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "emmy/base/types.h"
+#include "emmy/base/work_team.h"
 #include "emmy/integrate/ancf_body_step.h"
 #include "emmy/integrate/coupled_tangent.h"
 #include "emmy/integrate/lined_body_lanes.h"
@@ -39,6 +42,8 @@ struct CoupledStepOptions {
   SymmetricFactor::Method method = SymmetricFactor::Method::kAutomatic;
   // For comparison: a fresh factorisation in every iteration.
   bool always_factorize = false;
+  // At least 1. The bits do not depend on it.
+  int num_threads = 1;
 };
 
 class CoupledStep {
@@ -70,6 +75,10 @@ class CoupledStep {
 
   Eigen::Index MultiplierOffset(Eigen::Index constraint) const;
   void Load(const State& state);
+  template <typename Work>
+  void ForVectors(const Work& work);
+  void SortMasses();
+  void EvaluateInertia();
   void Evaluate();
   void EvaluateBodies();
   void EvaluateLoads();
@@ -92,6 +101,10 @@ class CoupledStep {
   CoupledStepOptions options_;
   CoupledTangent tangent_;
   bool renew_ = true;
+  std::unique_ptr<WorkTeam> team_;
+  // Entries of the mass matrix, those of each block of vectors first.
+  std::vector<Structure::Mass> masses_;
+  std::vector<size_t> block_end_;
   std::optional<LinedBodyLanes> lanes_;  // Tried first, where it fits.
 
   // The start of the step.

@@ -271,28 +271,36 @@ void CoupledTangent::FollowBodies(const Matrix3Xd& mean_positions,
 void CoupledTangent::Solve(const Matrix3Xd& residual,
                            const Matrix3Xd& constraint_residual,
                            Matrix3Xd* correction,
-                           Matrix3Xd* multiplier_correction) {
+                           Matrix3Xd* multiplier_correction, WorkTeam* team) {
   const Eigen::Index vectors = structure_->num_vectors();
   const Eigen::Index constraints = structure_->num_constraints();
   Eigen::Map<Matrix3Xd> right_side(right_side_.data(), 3,
                                    vectors + constraints);
   // All as nodes first, then those of bodies again.
   const Matrix3d back = turn_.transpose();
-  for (Eigen::Index v = 0; v < vectors; ++v) {
-    right_side.col(v) = back * residual.col(v);
-  }
+  const auto for_vectors = [vectors, team](const auto& work) {
+    const auto range = [&work](size_t /*member*/, size_t first, size_t end) {
+      for (size_t v = first; v < end; ++v) work(static_cast<Eigen::Index>(v));
+    };
+    if (team == nullptr) {
+      range(0, 0, static_cast<size_t>(vectors));
+    } else {
+      team->Run(static_cast<size_t>(vectors), range);
+    }
+  };
+  for_vectors(
+      [&](Eigen::Index v) { right_side.col(v) = back * residual.col(v); });
   for (size_t i = 0; i < frames_.size(); ++i) {
     TurnBody(structure_->bodies[i].first, frames_[i].rotation.transpose(),
              frames_[i].left, residual, &right_side);
   }
   right_side.rightCols(constraints) = constraint_residual;
-  factor_.Solve(right_side_, &solution_);
+  factor_.Solve(right_side_, &solution_, team);
   const Eigen::Map<const Matrix3Xd> solution(solution_.data(), 3,
                                              vectors + constraints);
   const Matrix3d turn = turn_;
-  for (Eigen::Index v = 0; v < vectors; ++v) {
-    correction->col(v) = turn * solution.col(v);
-  }
+  for_vectors(
+      [&](Eigen::Index v) { correction->col(v) = turn * solution.col(v); });
   for (size_t i = 0; i < frames_.size(); ++i) {
     TurnBody(structure_->bodies[i].first, frames_[i].rotation, frames_[i].right,
              solution, correction);

@@ -65,7 +65,8 @@ class CoupledTangent {
 
   // Solves (EM-10): columns of vectors, then of constraints.
   void Solve(const Matrix3Xd& residual, const Matrix3Xd& constraint_residual,
-             Matrix3Xd* correction, Matrix3Xd* multiplier_correction);
+             Matrix3Xd* correction, Matrix3Xd* multiplier_correction,
+             WorkTeam* team = nullptr);
 
   int num_factorizations() const { return num_factorizations_; }
   SymmetricFactor::Method method() const { return factor_.method(); }

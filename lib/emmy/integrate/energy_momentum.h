@@ -40,7 +40,8 @@ struct IntegratorOptions {
   bool always_full_newton = false;
   // How the equations of structures are factorised.
   SymmetricFactor::Method factor_method = SymmetricFactor::Method::kAutomatic;
-  // For long chains of joined bodies; at least 1. The bits do not depend on it.
+  // For long chains of joined bodies and large nets; at least 1. The bits do
+  // not depend on it.
   int num_threads = 1;
 };
 

@@ -19,12 +19,12 @@
 #include <vector>
 
 #include "emmy/base/types.h"
+#include "emmy/base/work_team.h"
 #include "emmy/integrate/body_packs.h"
 #include "emmy/integrate/joint_chain_kernel.h"
 #include "emmy/integrate/joint_graph.h"
 #include "emmy/integrate/joint_system.h"
 #include "emmy/integrate/structure.h"
-#include "emmy/integrate/work_team.h"
 #include "emmy/model/state.h"
 
 namespace emmy {

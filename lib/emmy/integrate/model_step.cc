@@ -104,7 +104,8 @@ ModelStep::ModelStep(
     const CoupledStepOptions coupled = {
         .newton = newton,
         .method = options.factor_method,
-        .always_factorize = options.always_full_newton};
+        .always_factorize = options.always_full_newton,
+        .num_threads = options.num_threads};
     std::unique_ptr<JointStep> joined =
         JointStep::Create(structure, time_step, coupled, options.num_threads);
     if (joined != nullptr) {

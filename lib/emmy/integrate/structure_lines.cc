@@ -1,8 +1,10 @@
 #include "emmy/integrate/structure_lines.h"
 
 #include <cmath>
+#include <optional>
 
 #include "emmy/base/check.h"
+#include "emmy/integrate/vector_blocks.h"
 
 namespace emmy {
 
@@ -13,30 +15,61 @@ bool StructureLines::IsStrut(const Structure::Line& line) {
          line.terms[1].weight == -line.terms[0].weight;
 }
 
+StructureLines::Strut StructureLines::MakeStrut(const Structure::Line& line,
+                                                int index) {
+  const bool forward = line.terms[1].weight > 0.0;
+  return {line.terms[forward ? 0 : 1].vector,
+          line.terms[forward ? 1 : 0].vector, index,
+          line.line->element.truss_law()};
+}
+
+void StructureLines::AddToSections(bool is_strut, size_t place) {
+  if (sections_.empty() || sections_.back().of_struts != is_strut) {
+    sections_.push_back({.of_struts = is_strut, .first = place});
+  }
+  sections_.back().end = place + 1;
+}
+
 StructureLines::StructureLines(const Structure& structure) {
   const auto lines = static_cast<Eigen::Index>(structure.lines.size());
   ground_.resize(3, lines);
   if (lines > 0) first_strain_ = structure.lines.front().strain;
   term_begin_.push_back(0);
+  const VectorBlocks blocks(structure.num_vectors());
+  std::vector<std::vector<Strut>> struts_of(blocks.count());
+  std::vector<Strut> rest;
   for (Eigen::Index i = 0; i < lines; ++i) {
-    const Structure::Line& line = structure.lines[static_cast<size_t>(i)];
+    const auto index = static_cast<size_t>(i);
+    const Structure::Line& line = structure.lines[index];
     EMMY_CHECK(line.strain == first_strain_ + i, line.strain);
     elements_.push_back(line.line->element);
     ground_.col(i) = line.line->difference.ground;
     terms_.insert(terms_.end(), line.terms.begin(), line.terms.end());
     term_begin_.push_back(terms_.size());
-    const bool is_strut = IsStrut(line);
-    if (is_strut) {
-      const bool forward = line.terms[1].weight > 0.0;
-      struts_.push_back({line.terms[forward ? 0 : 1].vector,
-                         line.terms[forward ? 1 : 0].vector,
-                         line.line->element.truss_law()});
+    if (!IsStrut(line)) {
+      AddToSections(false, others_.size());
+      others_.push_back(index);
+      continue;
     }
-    if (sections_.empty() || sections_.back().of_struts != is_strut) {
-      sections_.push_back({.of_struts = is_strut});
+    const Strut strut = MakeStrut(line, static_cast<int>(i));
+    if (const std::optional<size_t> block =
+            blocks.Common(strut.from, strut.to)) {
+      struts_of[*block].push_back(strut);
+    } else {
+      AddToSections(true, rest.size());
+      rest.push_back(strut);
     }
-    sections_.back().end = static_cast<size_t>(i) + 1;
   }
+  for (const std::vector<Strut>& struts : struts_of) {
+    struts_.insert(struts_.end(), struts.begin(), struts.end());
+    block_end_.push_back(struts_.size());
+  }
+  for (Section& section : sections_) {
+    if (!section.of_struts) continue;
+    section.first += struts_.size();
+    section.end += struts_.size();
+  }
+  struts_.insert(struts_.end(), rest.begin(), rest.end());
   mean_.setZero(3, lines);
   tension_.setZero(lines);
   derivative_.setZero(lines);
@@ -74,32 +107,40 @@ inline StructureLines::Difference StructureLines::AcrossStrut(
   return {across(*q0_) + (across(*q0_compensation_) + 0.5 * change), change};
 }
 
-// Calls of_strut(strut, its strain) or of_line(line, its strain), in order.
+// Calls of_strut(strut) or of_line(line) for each: the struts of a block one
+// after the other, blocks at the same time, then the rest in order.
 template <typename OfStrut, typename OfLine>
-void StructureLines::ForEach(const OfStrut& of_strut,
+void StructureLines::ForEach(WorkTeam* team, const OfStrut& of_strut,
                              const OfLine& of_line) const {
-  size_t line = 0;
-  Eigen::Index strain = first_strain_;
-  const Strut* strut = struts_.data();
+  const auto struts = [&](size_t first, size_t end) {
+    for (size_t i = first; i < end; ++i) of_strut(struts_[i]);
+  };
+  if (!block_end_.empty()) {
+    team->Run(block_end_.size(),
+              [&](size_t /*member*/, size_t first, size_t end) {
+                struts(first == 0 ? 0 : block_end_[first - 1],
+                       end == 0 ? 0 : block_end_[end - 1]);
+              });
+  }
   for (const Section& section : sections_) {
-    for (; line < section.end; ++line, ++strain) {
-      if (section.of_struts) {
-        of_strut(*strut++, strain);
-      } else {
-        of_line(line, strain);
-      }
+    if (section.of_struts) {
+      struts(section.first, section.end);
+      continue;
     }
+    for (size_t i = section.first; i < section.end; ++i) of_line(others_[i]);
   }
 }
 
 void StructureLines::AddImpulses(double time_step, const Matrix3Xd& dq,
                                  const VectorXd& strain0,
                                  const VectorXd& strain0_compensation,
-                                 Matrix3Xd* residual,
+                                 WorkTeam* team, Matrix3Xd* residual,
                                  VectorXd* magnitude) const {
   ForEach(
-      [&](const Strut& strut, Eigen::Index strain) {
+      team,
+      [&](const Strut& strut) {
         const auto [d, change] = AcrossStrut(strut, dq);
+        const Eigen::Index strain = first_strain_ + strut.line;
         const double tension_factor = strut.law.TensionFactor(
             strain0(strain), strain0_compensation(strain),
             strut.law.Increment(d.dot(change)));
@@ -110,8 +151,9 @@ void StructureLines::AddImpulses(double time_step, const Matrix3Xd& dq,
         (*magnitude)(strut.from) += size;
         (*magnitude)(strut.to) += size;
       },
-      [&](size_t line, Eigen::Index strain) {
+      [&](size_t line) {
         const auto [d, change] = At(line, dq);
+        const Eigen::Index strain = Strain(line);
         const LineElement::Response response = elements_[line].Respond(
             strain0(strain), strain0_compensation(strain), d.dot(change));
         const Vector3d impulse = (time_step * response.tension_factor) * d;
@@ -127,14 +169,18 @@ void StructureLines::AddImpulses(double time_step, const Matrix3Xd& dq,
 void StructureLines::AdvanceStrains(const Matrix3Xd& dq,
                                     const VectorXd& strain0,
                                     const VectorXd& strain0_compensation,
+                                    WorkTeam* team,
                                     VectorXd* strain_increment) const {
   ForEach(
-      [&](const Strut& strut, Eigen::Index strain) {
+      team,
+      [&](const Strut& strut) {
         const auto [d, change] = AcrossStrut(strut, dq);
-        (*strain_increment)(strain) = strut.law.Increment(d.dot(change));
+        (*strain_increment)(first_strain_ + strut.line) =
+            strut.law.Increment(d.dot(change));
       },
-      [&](size_t line, Eigen::Index strain) {
+      [&](size_t line) {
         const auto [d, change] = At(line, dq);
+        const Eigen::Index strain = Strain(line);
         (*strain_increment)(strain) =
             elements_[line]
                 .Respond(strain0(strain), strain0_compensation(strain),

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "emmy/base/types.h"
+#include "emmy/base/work_team.h"
 #include "emmy/element/line_element.h"
 #include "emmy/integrate/structure.h"
 
@@ -25,12 +26,12 @@ class StructureLines {
   // to `magnitude`. Strains by local number.
   void AddImpulses(double time_step, const Matrix3Xd& dq,
                    const VectorXd& strain0,
-                   const VectorXd& strain0_compensation, Matrix3Xd* residual,
-                   VectorXd* magnitude) const;
+                   const VectorXd& strain0_compensation, WorkTeam* team,
+                   Matrix3Xd* residual, VectorXd* magnitude) const;
 
   // Writes Δy at Δq.
   void AdvanceStrains(const Matrix3Xd& dq, const VectorXd& strain0,
-                      const VectorXd& strain0_compensation,
+                      const VectorXd& strain0_compensation, WorkTeam* team,
                       VectorXd* strain_increment) const;
 
   // What a tangent at Δq needs.
@@ -49,11 +50,13 @@ class StructureLines {
   struct Strut {
     int from = 0;
     int to = 0;
+    int line = 0;
     LineElement::TrussLaw law;
   };
-  // Lines one after the other that are struts, or are not.
+  // Lines one after the other: struts, or others.
   struct Section {
     bool of_struts = false;
+    size_t first = 0;  // In struts_ or others_.
     size_t end = 0;
   };
   struct Difference {
@@ -62,18 +65,26 @@ class StructureLines {
   };
 
   static bool IsStrut(const Structure::Line& line);
+  static Strut MakeStrut(const Structure::Line& line, int index);
+  void AddToSections(bool is_strut, size_t place);
   Difference At(size_t line, const Matrix3Xd& dq) const;
   Difference AcrossStrut(const Strut& strut, const Matrix3Xd& dq) const;
+  Eigen::Index Strain(size_t line) const {
+    return first_strain_ + static_cast<Eigen::Index>(line);
+  }
   template <typename OfStrut, typename OfLine>
-  void ForEach(const OfStrut& of_strut, const OfLine& of_line) const;
+  void ForEach(WorkTeam* team, const OfStrut& of_strut,
+               const OfLine& of_line) const;
 
   std::vector<LineElement> elements_;
   std::vector<WeightedVector> terms_;  // Of all lines, one after the other.
   std::vector<size_t> term_begin_;     // Of each line, and the end.
   Matrix3Xd ground_;                   // Constant part of d.
-  std::vector<Strut> struts_;
-  std::vector<Section> sections_;
-  Eigen::Index first_strain_ = 0;  // Lines' strains follow the bodies'.
+  std::vector<Strut> struts_;          // Those of each block, then the rest.
+  std::vector<size_t> block_end_;      // In struts_.
+  std::vector<size_t> others_;         // Lines that are no struts.
+  std::vector<Section> sections_;      // What belongs to no block, in order.
+  Eigen::Index first_strain_ = 0;      // Lines' strains follow the bodies'.
   const Matrix3Xd* q0_ = nullptr;
   const Matrix3Xd* q0_compensation_ = nullptr;
   Matrix3Xd mean_;

@@ -4,6 +4,7 @@
 #include <Eigen/LU>
 #include <Eigen/SparseCholesky>
 
+#include "emmy/numerics/nested_dissection.h"
 #include "emmy/numerics/supernodal_solve.h"
 
 namespace emmy {
@@ -14,7 +15,7 @@ struct SymmetricFactor::Backend {
   Backend& operator=(const Backend&) = delete;
   virtual ~Backend() = default;
   virtual bool Factorize(const SymmetricBlockMatrix& matrix) = 0;
-  virtual void Solve(const VectorXd& b, VectorXd* x) = 0;
+  virtual void Solve(const VectorXd& b, VectorXd* x, WorkTeam* team) = 0;
 };
 
 struct SymmetricFactor::Dense final : SymmetricFactor::Backend {
@@ -39,12 +40,14 @@ struct SymmetricFactor::Dense final : SymmetricFactor::Backend {
            lu.matrixLU().allFinite();
   }
 
-  void Solve(const VectorXd& b, VectorXd* x) override { *x = lu.solve(b); }
+  void Solve(const VectorXd& b, VectorXd* x, WorkTeam* /*team*/) override {
+    *x = lu.solve(b);
+  }
 
   Eigen::PartialPivLU<Matrix> lu;
 };
 
-template <typename Scalar>
+template <typename Scalar, typename Ordering>
 struct SymmetricFactor::Simplicial final : SymmetricFactor::Backend {
   explicit Simplicial(const SymmetricBlockMatrix& matrix) {
     ldlt.analyzePattern(matrix.lower());
@@ -59,9 +62,12 @@ struct SymmetricFactor::Simplicial final : SymmetricFactor::Backend {
     panels.Update(lower, ldlt.vectorD());
     return true;
   }
-  void Solve(const VectorXd& b, VectorXd* x) override { panels.Solve(b, x); }
+  void Solve(const VectorXd& b, VectorXd* x, WorkTeam* team) override {
+    panels.Solve(b, x, team);
+  }
 
-  Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>, Eigen::Lower> ldlt;
+  Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>, Eigen::Lower, Ordering>
+      ldlt;
   SupernodalSolve<Scalar> panels;
   bool analyzed = false;
 };
@@ -76,10 +82,28 @@ struct SymmetricFactor::Supernodal final : SymmetricFactor::Backend {
     llt.factorize(matrix.lower());
     return llt.info() == Eigen::Success;
   }
-  void Solve(const VectorXd& b, VectorXd* x) override { *x = llt.solve(b); }
+  void Solve(const VectorXd& b, VectorXd* x, WorkTeam* /*team*/) override {
+    *x = llt.solve(b);
+  }
 
   Eigen::CholmodSupernodalLLT<Eigen::SparseMatrix<double>, Eigen::Lower> llt;
 };
+
+std::unique_ptr<SymmetricFactor::Backend> SymmetricFactor::MakeSimplicial(
+    const SymmetricBlockMatrix& matrix, bool positive_definite) {
+  using MinimumDegree = Eigen::AMDOrdering<int>;
+  // A quasi-definite factor may grow by 1/κ: that needs every digit.
+  if (!positive_definite) {
+    return std::make_unique<Simplicial<double, MinimumDegree>>(matrix);
+  }
+  // In plane nets dissection leaves 3 % less fill-in at 1600 blocks, 8 % less
+  // at 90,000; the minimum degree is found sooner.
+  constexpr int kManyBlocks = 2000;
+  if (matrix.num_blocks() < kManyBlocks) {
+    return std::make_unique<Simplicial<float, MinimumDegree>>(matrix);
+  }
+  return std::make_unique<Simplicial<float, NestedDissection>>(matrix);
+}
 
 SymmetricFactor::SymmetricFactor(const SymmetricBlockMatrix& matrix,
                                  bool positive_definite, Method method)
@@ -97,12 +121,7 @@ SymmetricFactor::SymmetricFactor(const SymmetricBlockMatrix& matrix,
       break;
     case Method::kAutomatic:
     case Method::kSimplicial:
-      // A quasi-definite factor may grow by 1/κ: that needs every digit.
-      if (positive_definite) {
-        backend_ = std::make_unique<Simplicial<float>>(matrix);
-      } else {
-        backend_ = std::make_unique<Simplicial<double>>(matrix);
-      }
+      backend_ = MakeSimplicial(matrix, positive_definite);
       break;
   }
 }
@@ -116,8 +135,8 @@ bool SymmetricFactor::Factorize(const SymmetricBlockMatrix& matrix) {
   return backend_->Factorize(matrix);
 }
 
-void SymmetricFactor::Solve(const VectorXd& b, VectorXd* x) {
-  backend_->Solve(b, x);
+void SymmetricFactor::Solve(const VectorXd& b, VectorXd* x, WorkTeam* team) {
+  backend_->Solve(b, x, team);
 }
 
 }  // namespace emmy

@@ -4,7 +4,8 @@
 // second diagonal block is negative definite): both have a factorisation
 // L D Lᵀ for any order of elimination (Vanderbei, SIAM J. Optim. 5 (1995)).
 // Small systems are dense, of fixed capacity and without allocation; others
-// sparse with an approximate minimum degree order.
+// sparse with an approximate minimum degree order, or a nested dissection where
+// that leaves less fill-in.
 //
 // The solution need not be exact: it is used as a correction, and only the
 // residual decides the result.
@@ -15,6 +16,7 @@
 #include <memory>
 
 #include "emmy/base/types.h"
+#include "emmy/base/work_team.h"
 #include "emmy/numerics/symmetric_block_matrix.h"
 
 namespace emmy {
@@ -24,7 +26,7 @@ class SymmetricFactor {
   enum class Method {
     kAutomatic,  // Dense up to kDenseLimit unknowns, else sparse.
     kDense,
-    kSimplicial,  // Eigen's LDLᵀ.
+    kSimplicial,  // Eigen's LDLᵀ, solved by panels (supernodal_solve.h).
     kSupernodal,  // CHOLMOD's LLᵀ; positive definite only.
   };
   static constexpr int kDenseLimit = 48;
@@ -39,17 +41,21 @@ class SymmetricFactor {
   // False if a pivot vanishes (or, for kSupernodal, is not positive).
   bool Factorize(const SymmetricBlockMatrix& matrix);
 
-  // x = A⁻¹ b for the last factorised A.
-  void Solve(const VectorXd& b, VectorXd* x);
+  // x = A⁻¹ b for the last factorised A. Threads of `team` share what can be
+  // shared, the bits do not depend on it; null: the caller's thread alone.
+  void Solve(const VectorXd& b, VectorXd* x, WorkTeam* team = nullptr);
 
   Method method() const { return method_; }
 
  private:
   struct Backend;
   struct Dense;
-  template <typename Scalar>
+  template <typename Scalar, typename Ordering>
   struct Simplicial;
   struct Supernodal;
+
+  static std::unique_ptr<Backend> MakeSimplicial(
+      const SymmetricBlockMatrix& matrix, bool positive_definite);
 
   Method method_;
   std::unique_ptr<Backend> backend_;

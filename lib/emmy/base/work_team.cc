@@ -1,4 +1,4 @@
-#include "emmy/integrate/work_team.h"
+#include "emmy/base/work_team.h"
 
 namespace emmy {
 

@@ -2,8 +2,8 @@
 //
 // They sleep between two runs; a run allocates nothing.
 
-#ifndef EMMY_INTEGRATE_WORK_TEAM_H_
-#define EMMY_INTEGRATE_WORK_TEAM_H_
+#ifndef EMMY_BASE_WORK_TEAM_H_
+#define EMMY_BASE_WORK_TEAM_H_
 
 #include <atomic>
 #include <cstddef>
@@ -51,4 +51,4 @@ class WorkTeam {
 
 }  // namespace emmy
 
-#endif  // EMMY_INTEGRATE_WORK_TEAM_H_
+#endif  // EMMY_BASE_WORK_TEAM_H_
