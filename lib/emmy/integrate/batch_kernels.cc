@@ -17,13 +17,26 @@ HWY_BEFORE_NAMESPACE();
 namespace emmy {
 namespace HWY_NAMESPACE {
 
+// The share of one step of `num_steps` in fetching `block`.
+template <typename Block>
+HWY_INLINE void Fetch(const Block* block, int64_t step, int64_t num_steps) {
+  constexpr int64_t kLine = 64;
+  constexpr int64_t kLines = (int64_t{sizeof(Block)} + kLine - 1) / kLine;
+  const char* const start = reinterpret_cast<const char*>(block);
+  const int64_t end = kLines * (step + 1) / num_steps;
+  for (int64_t line = kLines * step / num_steps; line < end; ++line) {
+    __builtin_prefetch(start + kLine * line, 1, 2);
+  }
+}
+
 template <typename PackStep, typename Block>
 HWY_INLINE void Advance(const BatchStep& step, int64_t num_steps, Block* block,
-                        LaneFallback* fallback) {
+                        const Block* next, LaneFallback* fallback) {
   for (int lane = 0; lane < kBatchLanes; lane += kPackLanes) {
     PrepareCentre(step, lane, &block->centre);
   }
   for (int64_t i = 0; i < num_steps; ++i) {
+    if (next != nullptr) Fetch(next, i, num_steps);
     for (int lane = 0; lane < kBatchLanes; lane += kPackLanes) {
       const Flag left = PackStep(step, lane, block).Advance();
       if (None(left)) continue;
@@ -37,12 +50,14 @@ HWY_INLINE void Advance(const BatchStep& step, int64_t num_steps, Block* block,
 }
 
 void AdvanceAncf(const BatchStep& step, int64_t num_steps, AncfBlock* block,
-                 LaneFallback* fallback) {
-  Advance<AncfPackStep>(step, num_steps, block, fallback);
+                 const AncfBlock* next, LaneFallback* fallback) {
+  Advance<AncfPackStep>(step, num_steps, block, next, fallback);
 }
 void AdvanceConventional(const BatchStep& step, int64_t num_steps,
-                         ConventionalBlock* block, LaneFallback* fallback) {
-  Advance<ConventionalPackStep>(step, num_steps, block, fallback);
+                         ConventionalBlock* block,
+                         const ConventionalBlock* next,
+                         LaneFallback* fallback) {
+  Advance<ConventionalPackStep>(step, num_steps, block, next, fallback);
 }
 
 }  // namespace HWY_NAMESPACE
@@ -56,12 +71,14 @@ HWY_EXPORT(AdvanceAncf);
 HWY_EXPORT(AdvanceConventional);
 
 void AdvanceBlock(const BatchStep& step, int64_t num_steps, AncfBlock* block,
-                  LaneFallback* fallback) {
-  HWY_DYNAMIC_DISPATCH(AdvanceAncf)(step, num_steps, block, fallback);
+                  const AncfBlock* next, LaneFallback* fallback) {
+  HWY_DYNAMIC_DISPATCH(AdvanceAncf)(step, num_steps, block, next, fallback);
 }
 void AdvanceBlock(const BatchStep& step, int64_t num_steps,
-                  ConventionalBlock* block, LaneFallback* fallback) {
-  HWY_DYNAMIC_DISPATCH(AdvanceConventional)(step, num_steps, block, fallback);
+                  ConventionalBlock* block, const ConventionalBlock* next,
+                  LaneFallback* fallback) {
+  HWY_DYNAMIC_DISPATCH(AdvanceConventional)
+  (step, num_steps, block, next, fallback);
 }
 
 }  // namespace emmy

@@ -20,11 +20,13 @@ class LaneFallback {
 };
 
 // Advances all lanes that are alive by `num_steps` steps. Several steps are
-// done while a block is in the nearest cache.
+// done while a block is in the nearest cache, and `next`, if not null, is
+// fetched meanwhile.
 void AdvanceBlock(const BatchStep& step, int64_t num_steps, AncfBlock* block,
-                  LaneFallback* fallback);
+                  const AncfBlock* next, LaneFallback* fallback);
 void AdvanceBlock(const BatchStep& step, int64_t num_steps,
-                  ConventionalBlock* block, LaneFallback* fallback);
+                  ConventionalBlock* block, const ConventionalBlock* next,
+                  LaneFallback* fallback);
 
 }  // namespace emmy
 

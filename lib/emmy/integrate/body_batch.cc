@@ -1,15 +1,16 @@
 #include "emmy/integrate/body_batch.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <cstddef>
-#include <thread>
 #include <utility>
 
 #include "absl/status/status.h"
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_format.h"
 #include "emmy/base/check.h"
+#include "emmy/base/work_team.h"
 #include "emmy/integrate/ancf_body_step.h"
 #include "emmy/integrate/batch_blocks.h"
 #include "emmy/integrate/batch_kernels.h"
@@ -31,6 +32,7 @@ struct Group {
   bool principal = true;  // Else the ordinary step takes all steps.
   std::vector<size_t> bodies;
   std::vector<Block> blocks;
+  std::atomic<size_t> taken = 0;  // Blocks that a thread has begun.
 
   Block& BlockOf(size_t i) {
     return blocks[i / static_cast<size_t>(kBatchLanes)];
@@ -45,6 +47,7 @@ struct Group {
 
 // What one thread did.
 struct Work {
+  int64_t iterations = 0;
   int64_t ordinary_steps = 0;
   std::vector<std::pair<size_t, BatchFailure>> failures;  // By body.
 };
@@ -55,6 +58,7 @@ struct BodyBatch::Data {
   const Model* model = nullptr;
   BodyBatchOptions options;
   BatchStep step;
+  std::unique_ptr<WorkTeam> team;
   bool is_loaded = false;
   int64_t step_number = 0;
   CompensatedDouble time;
@@ -115,7 +119,10 @@ struct BodyBatch::Data {
   }
 
   template <typename Block>
-  void Run(int64_t num_steps, size_t thread, Group<Block>* group, Work* work);
+  void RunBlock(int64_t num_steps, size_t index, const Block* next,
+                Group<Block>* group, Work* work);
+  template <typename Block>
+  void Run(int64_t num_steps, Group<Block>* group, Work* work);
 };
 
 namespace {
@@ -147,24 +154,44 @@ class OrdinaryStep : public LaneFallback {
 }  // namespace
 
 template <typename Block>
-void BodyBatch::Data::Run(int64_t num_steps, size_t thread, Group<Block>* group,
-                          Work* work) {
-  const size_t num_blocks = group->blocks.size();
-  const auto num_threads = static_cast<size_t>(options.num_threads);
-  const size_t end = (thread + 1) * num_blocks / num_threads;
-  for (size_t i = thread * num_blocks / num_threads; i < end; ++i) {
-    Block& block = group->blocks[i];
-    OrdinaryStep<Data, Block> fallback(
-        this, group->bodies.data() + i * static_cast<size_t>(kBatchLanes),
-        &block, work);
-    if (group->principal) {
-      AdvanceBlock(step, num_steps, &block, &fallback);
-      continue;
-    }
+void BodyBatch::Data::RunBlock(int64_t num_steps, size_t index,
+                               const Block* next, Group<Block>* group,
+                               Work* work) {
+  const size_t first = index * static_cast<size_t>(kBatchLanes);
+  Block& block = group->blocks[index];
+  OrdinaryStep<Data, Block> fallback(this, group->bodies.data() + first, &block,
+                                     work);
+  if (group->principal) {
+    AdvanceBlock(step, num_steps, &block, next, &fallback);
+  } else {
     for (int64_t j = 0; j < num_steps; ++j) {
       for (int lane = 0; lane < kBatchLanes; ++lane) {
         if (block.centre.alive[lane] != 0.0) fallback.TakeStep(j, lane);
       }
+    }
+  }
+  for (size_t i = first; i < std::min(first + static_cast<size_t>(kBatchLanes),
+                                      group->bodies.size());
+       ++i) {
+    double& iterations = block.centre.iterations[group->LaneOf(i)];
+    work->iterations += static_cast<int64_t>(iterations);
+    iterations = 0.0;
+  }
+}
+
+// Takes some blocks after the other until all are taken: no thread waits long
+// for a slower one.
+template <typename Block>
+void BodyBatch::Data::Run(int64_t num_steps, Group<Block>* group, Work* work) {
+  constexpr size_t kBlocksATime = 32;
+  const size_t num_blocks = group->blocks.size();
+  while (true) {
+    const size_t first = group->taken.fetch_add(kBlocksATime);
+    if (first >= num_blocks) return;
+    const size_t end = std::min(first + kBlocksATime, num_blocks);
+    for (size_t i = first; i < end; ++i) {
+      RunBlock(num_steps, i, i + 1 < end ? &group->blocks[i + 1] : nullptr,
+               group, work);
     }
   }
 }
@@ -196,6 +223,8 @@ absl::StatusOr<BodyBatch> BodyBatch::Create(const Model& model,
   auto data = std::make_unique<Data>();
   data->model = &model;
   data->options = options;
+  data->team =
+      std::make_unique<WorkTeam>(static_cast<size_t>(options.num_threads));
   data->step.time_step = options.time_step;
   data->step.inverse_time_step = 1.0 / options.time_step;
   for (int i = 0; i < 3; ++i) {
@@ -250,23 +279,20 @@ BatchReport BodyBatch::Step(int64_t num_steps) {
   Data& data = *data_;
   EMMY_CHECK(data.is_loaded, "Load before Step");
   EMMY_CHECK(num_steps >= 0, num_steps);
-  const auto num_threads = static_cast<size_t>(data.options.num_threads);
-  std::vector<Work> work(num_threads);
-  const auto run = [&](size_t thread) {
-    data.ForEachGroup([&](auto& group) {
-      data.Run(num_steps, thread, &group, &work[thread]);
-    });
-  };
-  std::vector<std::thread> others;
-  for (size_t i = 1; i < num_threads; ++i) others.emplace_back(run, i);
-  run(0);
-  for (std::thread& thread : others) thread.join();
+  data.ForEachGroup([](auto& group) { group.taken = 0; });
+  std::vector<Work> work(data.team->size());
+  data.team->Run(
+      work.size(), [&](size_t member, size_t /*first*/, size_t /*last*/) {
+        data.ForEachGroup(
+            [&](auto& group) { data.Run(num_steps, &group, &work[member]); });
+      });
 
   data.step_number += num_steps;
   for (int64_t i = 0; i < num_steps; ++i) data.time.Add(data.options.time_step);
   BatchReport report;
   std::vector<std::pair<size_t, BatchFailure>> failures;
   for (Work& part : work) {
+    report.iterations += part.iterations;
     report.ordinary_steps += part.ordinary_steps;
     for (auto& failure : part.failures) failures.push_back(std::move(failure));
   }
@@ -275,13 +301,6 @@ BatchReport BodyBatch::Step(int64_t num_steps) {
   for (auto& [body, failure] : failures) {
     report.failures.push_back(std::move(failure));
   }
-  data.ForEachGroup([&report](auto& group) {
-    for (size_t i = 0; i < group.bodies.size(); ++i) {
-      double& iterations = group.BlockOf(i).centre.iterations[group.LaneOf(i)];
-      report.iterations += static_cast<int64_t>(iterations);
-      iterations = 0.0;
-    }
-  });
   return report;
 }
 
