@@ -84,6 +84,7 @@ DoubleDouble3 ConventionalStructureStep::Place(const State& state,
     place[i] = Extended(state.position, q + i);
   }
   for (int i = 0; i < 3; ++i) {
+    if (end.xi(i) == 0.0 && rest(i) == 0.0) continue;
     place += DoubleDouble(TwoSum(end.xi(i), rest(i))) *
              body.frame[static_cast<size_t>(i)];
   }
@@ -179,6 +180,51 @@ void ConventionalStructureStep::AddJointsToTangent() {
                        body.body->conventional()->mass());
     }
   }
+}
+
+// Shortens the correction so that no body turns by more than a third of a
+// radian: far from the solution, Newton's method overshoots.
+void ConventionalStructureStep::LimitTurns() {
+  constexpr double kLargestTurn = 0.3;
+  double turn = 0.0;
+  for (size_t b = 0; b < bodies_.size(); ++b) {
+    const Index row = BodyRow(static_cast<int>(b)) + 3;
+    turn = std::max(
+        turn, 0.5 * std::abs(time_step_) * correction_.segment<3>(row).norm());
+  }
+  if (turn > kLargestTurn) correction_ *= kLargestTurn / turn;
+}
+
+// Whether the residual's work (EM-7) is small against the energy of the start
+// and the work of the loads: an iterate that has run away is solved to the
+// round-off of its own size.
+bool ConventionalStructureStep::KeepsEnergy() const {
+  constexpr double kLargestShare = 1e-8;
+  if (joints_.empty() || options_.tolerance.has_value()) return true;
+  double energy = 0.0;
+  for (const Body& body : bodies_) {
+    const ConventionalRigidBody& element = *body.body->conventional();
+    energy += 0.5 * (element.mass() * body.v0.squaredNorm() +
+                     body.w0.dot(element.tensor() * body.w0)) +
+              element.mass() * std::abs(model_->gravity().dot(body.increment));
+  }
+  for (const Node& node : nodes_) {
+    energy += node.vector->first_moment *
+              (0.5 * node.w0.squaredNorm() +
+               std::abs(model_->gravity().dot(node.increment)));
+  }
+  for (const Line& line : lines_) {
+    energy += line.line->element.Energy(line.strain).ToDouble();
+  }
+  for (const Force& force : forces_) {
+    energy += std::abs(force.force.dot(force.end.increment));
+  }
+  for (const Torque& torque : torques_) {
+    const Body& body = bodies_[static_cast<size_t>(torque.body)];
+    energy += std::abs(time_step_ *
+                       torque.torque.dot(body.rotation * body.mean_omega));
+  }
+  return std::abs(Work()) <= kLargestShare * energy;
 }
 
 // Directions that other joints hold at the start need not be held by them for

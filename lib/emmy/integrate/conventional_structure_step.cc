@@ -453,7 +453,7 @@ Vector3d ConventionalStructureStep::Moment() const {
   return moment;
 }
 
-BodyStepResult ConventionalStructureStep::Iterate() {
+BodyStepResult ConventionalStructureStep::Iterate(bool damped) {
   BodyStepResult result;
   StagnationMonitor rate_monitor;
   StagnationMonitor work_monitor;
@@ -466,7 +466,8 @@ BodyStepResult ConventionalStructureStep::Iterate() {
     // Anew in every step, since the effective masses turn with the bodies;
     // and within a step where it no longer serves.
     constexpr double kSlow = 0.3;
-    if ((i == 1 || result.correction > kSlow * previous) && !FormTangent()) {
+    const bool renew = i == 1 || damped || result.correction > kSlow * previous;
+    if (renew && !FormTangent()) {
       result.termination = Termination::kSingularTangent;
       return result;
     }
@@ -489,6 +490,7 @@ BodyStepResult ConventionalStructureStep::Iterate() {
     const double work = std::abs(Work());
     const double moment = Moment().cwiseAbs().maxCoeff();
     tangent_.Solve(residual_, &correction_);
+    if (damped) LimitTurns();
     unknown_ -= correction_;
     result.correction = correction_.head(JointRow(0))
                             .cwiseAbs()
@@ -523,15 +525,21 @@ BodyStepResult ConventionalStructureStep::Iterate() {
 
 BodyStepResult ConventionalStructureStep::Solve(const State& state) {
   Load(state);
-  BodyStepResult result = Iterate();
-  if (result.termination != Termination::kConverged) {
+  BodyStepResult result = Iterate(/*damped=*/false);
+  // Once more from rest, and with joints a third time in small turns.
+  for (const bool damped : {false, true}) {
+    if (result.termination == Termination::kConverged) break;
+    if (damped && joints_.empty()) break;
     const int iterations = result.iterations;
     unknown_.setZero();
-    result = Iterate();
+    result = Iterate(damped);
     result.iterations += iterations;
   }
   Evaluate();
   open_joint_ = nullptr;
+  if (result.termination == Termination::kConverged && !KeepsEnergy()) {
+    result.termination = Termination::kMaxIterations;
+  }
   if (result.termination == Termination::kConverged) {
     open_joint_ = OpenJoint();
     if (open_joint_ != nullptr) {

@@ -166,7 +166,7 @@ class ConventionalStructureStep {
   void EvaluateBody(size_t index);
   void EvaluateLine(Line* line);
   bool FormTangent();
-  BodyStepResult Iterate();
+  BodyStepResult Iterate(bool damped);
   double Work() const;
   Vector3d Moment() const;
   void AddToTangent(const End& first, const End& second,
@@ -180,6 +180,8 @@ class ConventionalStructureStep {
   std::pair<Vector3d, Vector3d> SplitRate(const End& end) const;
   void EvaluateJoints();
   void AddJointsToTangent();
+  void LimitTurns();
+  bool KeepsEnergy() const;
   const ModelJoint* OpenJoint() const;
   void CommitJoints(State& state) const;
 
