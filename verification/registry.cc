@@ -16,8 +16,8 @@ const std::vector<Claim>& AllClaims() {
          {KinematicsClaims, LawClaims, ConservationClaims, SymmetryClaims,
           VibrationClaims, GrowthClaims, LargeStepClaims, PenaltyClaims,
           AngularVelocityClaims, OrderClaims, CompositionClaims, ExternalClaims,
-          ExternalStructureClaims, StructureClaims, BaselineClaims,
-          FigureClaims}) {
+          ExternalStructureClaims, StructureClaims, ConventionalJointClaims,
+          BaselineClaims, FigureClaims}) {
       for (Claim& claim : group()) all->push_back(std::move(claim));
     }
     return all;

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <string>
 #include <utility>
+#include <variant>
 #include <vector>
 
 #include "absl/strings/str_cat.h"
@@ -185,6 +186,18 @@ Case BoxChain(int n) {
   }
   value.integrator = Steps(1e-3, 1.0);
   value.output_every = 100;
+  return value;
+}
+
+Case ConventionalBoxChain(int n) {
+  Case value = BoxChain(n);
+  value.name = absl::StrCat("conventional_box_chain_", n);
+  value.purpose =
+      "A chain of boxes joined by spherical joints, of conventional bodies.";
+  for (RigidBodyDescription& box : value.model.rigid_bodies) {
+    box.formulation = Formulation::kConventional;
+    box.penalty = std::monostate();
+  }
   return value;
 }
 
