@@ -91,6 +91,23 @@ TEST(IndependentJointsTest, ThreePointsOnTheGroundHoldABody) {
   EXPECT_THAT(Held(joints), ElementsAre(3, 2, 1));
 }
 
+// A chain beside a hinge, and one that a second point on the ground closes.
+TEST(IndependentJointsTest, OnlyLoopsHoldADirectionTwice) {
+  const Vector3d right(1.5, 0.0, 0.0);
+  const std::vector<ModelJoint> open = {Between(On(0, right), On(1, -right)),
+                                        Between(On(1, right), Ground(right)),
+                                        Between(On(2, right), On(3, -right))};
+  const std::vector<ModelBody> bodies = {Box("a"), Box("b"), Box("c"),
+                                         Box("d")};
+  EXPECT_THAT(Held(IndependentJoints(bodies, NoTurn(), open)),
+              ElementsAre(3, 3, 3));
+  std::vector<ModelJoint> closed = open;
+  closed.push_back(Between(On(2, {1.5, 0.0, 0.5}), On(3, {-1.5, 0.0, 0.5})));
+  closed.push_back(Between(On(0, -right), Ground(-right)));
+  EXPECT_THAT(Held(IndependentJoints(bodies, NoTurn(), closed)),
+              ElementsAre(3, 3, 3, 2, 2));
+}
+
 // By counts a linkage of four hinges, 24 − 20 = 4 directions, could not move
 // but as a whole; it has 7, for three are held twice.
 TEST(IndependentJointsTest, ALinkageOfHingesMoves) {

@@ -5,8 +5,8 @@
 #include <gtest/gtest.h>
 
 #include <array>
-#include <cmath>
 #include <functional>
+#include <limits>
 #include <ostream>
 #include <string>
 #include <utility>
@@ -21,6 +21,8 @@ namespace {
 using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::StartsWith;
+
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 NodeDescription Node(const std::string& name, const Vector3d& position,
                      double mass = 1.0) {
@@ -168,11 +170,12 @@ INSTANTIATE_TEST_SUITE_P(
                   m.nodes[1].fixed = true;
                 },
                 "", "degree of freedom"},
-        Mistake{"ForceThatIsNoNumber",
-                [](auto& m) {
-                  m.loads.push_back(ForceLoad{NodePoint{"a"}, {0.0, NAN, 0.0}});
-                },
-                "/loads/0/force", "finite"},
+        Mistake{
+            "ForceThatIsNoNumber",
+            [](auto& m) {
+              m.loads.push_back(ForceLoad{NodePoint{"a"}, {0.0, kNan, 0.0}});
+            },
+            "/loads/0/force", "finite"},
         Mistake{"TorqueOnNobody",
                 [](auto& m) {
                   m.loads.push_back(TorqueLoad{"nobody", {0.0, 0.0, 1.0}});

@@ -3,6 +3,7 @@
 #include <Eigen/Eigenvalues>
 #include <array>
 #include <cmath>
+#include <numeric>
 #include <utility>
 
 #include "emmy/model/row_space.h"
@@ -72,6 +73,43 @@ SparseRow Combine(const JointRows& rows, const Vector3d& weights) {
   return sum;
 }
 
+// Which parts of the model have joints that close a loop, over the ground or
+// not. In the others each joint ties a part that could move freely to
+// something else, and holds all directions.
+class Loops {
+ public:
+  Loops(size_t num_bodies, const std::vector<ModelJoint>& joints)
+      : parent_(num_bodies + 1), closed_(num_bodies + 1, false) {
+    std::iota(parent_.begin(), parent_.end(), size_t{0});
+    for (const ModelJoint& joint : joints) {
+      const size_t first = Find(Number(joint.points[0]));
+      const size_t second = Find(Number(joint.points[1]));
+      closed_[first] = closed_[first] || closed_[second] || first == second;
+      parent_[second] = first;
+    }
+  }
+
+  bool IsClosed(const ModelJoint& joint) {
+    return closed_[Find(Number(joint.points[0]))];
+  }
+
+ private:
+  // Of the body, or the last for the ground.
+  size_t Number(const Point& point) const {
+    return point.conventional_body.value_or(parent_.size() - 1);
+  }
+  size_t Find(size_t i) {
+    while (parent_[i] != i) {
+      parent_[i] = parent_[parent_[i]];
+      i = parent_[i];
+    }
+    return i;
+  }
+
+  std::vector<size_t> parent_;
+  std::vector<bool> closed_;  // Of those that stand for their part.
+};
+
 }  // namespace
 
 std::vector<ModelJoint> IndependentJoints(
@@ -79,12 +117,18 @@ std::vector<ModelJoint> IndependentJoints(
     const std::vector<Matrix3d>& rotations, std::vector<ModelJoint> joints) {
   std::vector<ModelJoint> kept;
   RowSpace space;
+  Loops loops(bodies.size(), joints);
   for (const ModelJoint& joint : joints) {
+    if (!loops.IsClosed(joint)) continue;
     for (const SparseRow& row : RowsOf(bodies, rotations, joint)) {
       for (const auto& [column, value] : row) space.CountUse(column);
     }
   }
   for (ModelJoint& joint : joints) {
+    if (!loops.IsClosed(joint)) {
+      kept.push_back(std::move(joint));
+      continue;
+    }
     JointRows rows = RowsOf(bodies, rotations, joint);
     const double size = std::sqrt(GramMatrix(rows).trace() / 3.0);
     for (SparseRow& row : rows) row = space.Reduce(std::move(row));
