@@ -13,7 +13,7 @@
 // effective mass matrix changes with the attitude: the tangent is formed and
 // factorised anew in every step.
 //
-// A joint adds an impulse λ̂ = Δt λ, +λ̂ and −λ̂ at its two points as above, and
+// A joint adds impulses −λ̂ = −Δt λ and λ̂ at its two points as above, and
 //   2 (v̄_c1 − v̄_c2 + c₀/Δt) = 0,  c = x_c1 − x_c2                  (CONJ-1)
 // so that the gap c₁ at the end is zero; c₀ is measured in extended precision,
 // and what rounding left of it is closed by the next step. Corrections are
