@@ -1,7 +1,7 @@
 // LU factorisation of a sparse matrix of 3×3 blocks, not symmetric in its
 // values, but in its pattern.
 //
-//   A = L D U, L and U with unit diagonal blocks, D of 3×3 blocks  (BLU-1)
+//   K = L D U, L and U with unit diagonal blocks, D of 3×3 blocks  (BLU-1)
 // Symbolic once, with the block of least degree first, so that chains and trees
 // fill in nothing; numeric renewed without allocation. No pivoting between
 // blocks: for matrices near a quasi-definite one (joint systems), whose
@@ -47,7 +47,7 @@ class BlockLu {
   // Overwrites the matrix. False if a pivot is singular or not finite.
   bool Factorize();
 
-  // x = A⁻¹ b for the last factorised A.
+  // x = K⁻¹ b for the last factorised K.
   void Solve(const VectorXd& b, VectorXd* x) const;
 
  private:
