@@ -17,7 +17,7 @@ const std::vector<Claim>& AllClaims() {
           VibrationClaims, AgreementClaims, GrowthClaims, LargeStepClaims,
           PenaltyClaims, AngularVelocityClaims, OrderClaims, CompositionClaims,
           ExternalClaims, ExternalStructureClaims, StructureClaims,
-          BaselineClaims, FigureClaims}) {
+          ConventionalJointClaims, BaselineClaims, FigureClaims}) {
       for (Claim& claim : group()) all->push_back(std::move(claim));
     }
     return all;

@@ -13,6 +13,7 @@
 
 #include "emmy/diagnostics/extended_state.h"
 #include "tests/integrate/allocation_counter.h"
+#include "tests/support/joined_boxes.h"
 #include "tests/support/structures.h"
 #include "tests/support/test_run.h"
 #include "verification/models/large_models.h"
@@ -42,54 +43,6 @@ double LargestGap(const TestRun& run) {
 }
 
 ModelDescription Chain(int n) { return verification::BoxChain(n).model; }
-
-// The ends of the chain's first and last box held where they are, at rest.
-ModelDescription HangingChain(int n, bool both_ends) {
-  ModelDescription model = Chain(n);
-  for (RigidBodyDescription& box : model.rigid_bodies) {
-    box.velocity.setZero();
-    box.angular_velocity.setZero();
-  }
-  model.gravity = {0.0, 0.3, -9.81};
-  const RigidBodyDescription& first = model.rigid_bodies.front();
-  const RigidBodyDescription& last = model.rigid_bodies.back();
-  model.shared_points.push_back(
-      {GroundPoint{first.position - Vector3d(1.5, 0.0, 0.0)},
-       BodyPoint{first.name, {-1.5, 0.0, 0.0}}});
-  if (both_ends) {
-    model.shared_points.push_back(
-        {GroundPoint{last.position + Vector3d(1.5, 0.0, 0.0)},
-         BodyPoint{last.name, {1.5, 0.0, 0.0}}});
-  }
-  return model;
-}
-
-// Boxes joined in pairs by two points: hinges about the z axis.
-ModelDescription Hinges(int n) {
-  ModelDescription model;
-  Vector3d velocity(0.1, 0.2, 0.3);
-  double before = 0.0;
-  for (int i = 0; i < n; ++i) {
-    RigidBodyDescription box = PaperBox();
-    box.name = "box_" + std::to_string(i);
-    box.position = {3.0 * i, 0.0, 0.0};
-    const double omega = 0.3 + 0.2 * (i % 2);
-    const Vector3d arm(1.5, 0.0, 0.0);
-    if (i > 0) {
-      velocity += Vector3d(0.0, 0.0, before + omega).cross(arm);
-      for (const double z : {-0.5, 0.5}) {
-        model.shared_points.push_back(
-            {BodyPoint{"box_" + std::to_string(i - 1), {1.5, 0.0, z}},
-             BodyPoint{box.name, {-1.5, 0.0, z}}});
-      }
-    }
-    box.velocity = velocity;
-    box.angular_velocity = {0.0, 0.0, omega};
-    before = omega;
-    model.rigid_bodies.push_back(box);
-  }
-  return model;
-}
 
 ModelDescription Loaded(ModelDescription model) {
   model.gravity = {0.1, -0.2, -9.81};

@@ -11,6 +11,7 @@
 
 #include "emmy/integrate/energy_momentum.h"
 #include "emmy/model/model_builder.h"
+#include "tests/support/joined_boxes.h"
 #include "tests/support/structures.h"
 #include "tests/support/test_run.h"
 #include "verification/models/large_models.h"
@@ -101,6 +102,12 @@ INSTANTIATE_TEST_SUITE_P(
         Kind{"TangleInLongSteps", Tangle, 0.05, 2, false},
         // Factorised once in every step; trees and grids keep theirs.
         Kind{"Chain", [] { return verification::BoxChain(8).model; }, 1e-2, 2,
+             false},
+        Kind{"ConventionalChain",
+             [] { return Conventional(verification::BoxChain(8).model); }, 1e-2,
+             2, false},
+        Kind{"ConventionalLinkageOrderFour",
+             [] { return Conventional(BoxRhombus(/*hinged=*/true)); }, 1e-2, 4,
              false},
         Kind{"Tree", [] { return verification::BoxTree(15).model; }, 1e-2},
         Kind{"Grid", [] { return verification::BoxGrid(4).model; }, 1e-2},

@@ -4,10 +4,13 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <cmath>
+#include <array>
 #include <functional>
+#include <limits>
 #include <ostream>
 #include <string>
+#include <utility>
+#include <variant>
 
 #include "emmy/model/model_builder.h"
 #include "tests/support/paper_box.h"
@@ -18,6 +21,8 @@ namespace {
 using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::StartsWith;
+
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 NodeDescription Node(const std::string& name, const Vector3d& position,
                      double mass = 1.0) {
@@ -165,11 +170,12 @@ INSTANTIATE_TEST_SUITE_P(
                   m.nodes[1].fixed = true;
                 },
                 "", "degree of freedom"},
-        Mistake{"ForceThatIsNoNumber",
-                [](auto& m) {
-                  m.loads.push_back(ForceLoad{NodePoint{"a"}, {0.0, NAN, 0.0}});
-                },
-                "/loads/0/force", "finite"},
+        Mistake{
+            "ForceThatIsNoNumber",
+            [](auto& m) {
+              m.loads.push_back(ForceLoad{NodePoint{"a"}, {0.0, kNan, 0.0}});
+            },
+            "/loads/0/force", "finite"},
         Mistake{"TorqueOnNobody",
                 [](auto& m) {
                   m.loads.push_back(TorqueLoad{"nobody", {0.0, 0.0, 1.0}});
@@ -224,13 +230,84 @@ TEST(SharedPointTest, AGapThroughAChainOfNodesIsFound) {
       AllOf(StartsWith("/shared_points/2: "), HasSubstr("a gap of 0.25 m")));
 }
 
-TEST(SharedPointTest, OfConventionalBodiesIsNotSupportedAndSaysSo) {
+TEST(SharedPointTest, OfConventionalBodiesBecomesAJoint) {
   const auto built = BuildModel(TwoBoxes(Formulation::kConventional));
-  ASSERT_FALSE(built.ok());
+  ASSERT_TRUE(built.ok()) << built.status().message();
+  const Model& model = built->model;
+  ASSERT_EQ(model.joints().size(), 1U);
+  EXPECT_EQ(model.joints()[0].name, "/shared_points/0");
+  EXPECT_EQ(model.joints()[0].num_held, 3);
+  EXPECT_FALSE(model.joints()[0].to_ground());
+  EXPECT_TRUE(model.constraints().empty());
+  EXPECT_EQ(model.degrees_of_freedom(), 12 - 3);
+  EXPECT_EQ(built->state.multiplier.next.size(), 3);
+}
+
+TEST(SharedPointTest, OfConventionalBodiesMustMeetAndMoveAlike) {
+  ModelDescription model = TwoBoxes(Formulation::kConventional);
+  std::get<BodyPoint>(model.shared_points[0][1]).point(1) += 0.25;
+  EXPECT_THAT(
+      std::string(BuildModel(model).status().message()),
+      AllOf(StartsWith("/shared_points/0: "), HasSubstr("a gap of 0.25 m")));
+  model = TwoBoxes(Formulation::kConventional);
+  model.rigid_bodies[1].velocity(2) += 0.125;
+  EXPECT_THAT(std::string(BuildModel(model).status().message()),
+              AllOf(StartsWith("/shared_points/0: must move alike"),
+                    HasSubstr("0.125 m/s apart")));
+}
+
+// Within what is allowed, the second point is placed where the first one is.
+TEST(SharedPointTest, OfConventionalBodiesLosesItsGapWithinTheAgreement) {
+  ModelDescription model = TwoBoxes(Formulation::kConventional);
+  std::get<BodyPoint>(model.shared_points[0][1]).point(1) += 1e-10;
+  const auto built = BuildModel(model);
+  ASSERT_TRUE(built.ok()) << built.status().message();
+  const ModelJoint& joint = built->model.joints()[0];
+  EXPECT_NEAR(joint.points[1].xi(1) - joint.points[0].xi(1), 0.0, 1e-15);
+}
+
+TEST(SharedPointTest, OfAConventionalBodyAndTheGroundHoldsTheBody) {
+  for (const bool ground_first : {false, true}) {
+    ModelDescription model = ModelOf(PaperBox(Formulation::kConventional));
+    model.rigid_bodies[0].angular_velocity.setZero();
+    std::array<PointDescription, 2> pair = {BodyPoint{"box", {1.5, 0.0, 0.0}},
+                                            GroundPoint{{1.5, 0.0, 0.0}}};
+    if (ground_first) std::swap(pair[0], pair[1]);
+    model.shared_points.push_back(pair);
+    const auto built = BuildModel(model);
+    ASSERT_TRUE(built.ok()) << built.status().message();
+    ASSERT_EQ(built->model.joints().size(), 1U);
+    EXPECT_TRUE(built->model.joints()[0].to_ground());
+    EXPECT_EQ(built->model.degrees_of_freedom(), 3);
+  }
+}
+
+TEST(SharedPointTest, OfAConventionalAndAnAncfBodyIsNotSupportedAndSaysSo) {
+  ModelDescription model = TwoBoxes(Formulation::kConventional);
+  model.rigid_bodies[1].formulation = Formulation::kAncf;
+  model.rigid_bodies[1].penalty = 1e10;
+  const auto built = BuildModel(model);
   EXPECT_EQ(built.status().code(), absl::StatusCode::kUnimplemented);
   EXPECT_THAT(std::string(built.status().message()),
-              AllOf(StartsWith("/shared_points/0: "),
-                    HasSubstr("conventional bodies are not supported yet")));
+              AllOf(StartsWith("/shared_points/0: body \"right\""),
+                    HasSubstr("not supported yet")));
+}
+
+TEST(SharedPointTest, ANodeOnAConventionalBodyMustBeMassless) {
+  ModelDescription model = TwoBoxes(Formulation::kConventional);
+  model.nodes.push_back(Node("pin", {1.5, 0.0, 0.0}, 0.0));
+  model.nodes[0].velocity = MovesWith{"box"};
+  model.shared_points = {
+      {NodePoint{"pin"}, BodyPoint{"box", {1.5, 0.0, 0.0}}},
+      {NodePoint{"pin"}, BodyPoint{"right", {-1.5, 0.0, 0.0}}}};
+  const auto built = BuildModel(model);
+  ASSERT_TRUE(built.ok()) << built.status().message();
+  EXPECT_EQ(built->model.joints().size(), 1U);
+  EXPECT_TRUE(built->model.nodes()[0].point.conventional_body.has_value());
+  model.nodes[0].mass = 2.0;
+  EXPECT_THAT(
+      std::string(BuildModel(model).status().message()),
+      AllOf(StartsWith("/nodes/0/mass: must be 0 [kg]"), HasSubstr("got 2")));
 }
 
 }  // namespace

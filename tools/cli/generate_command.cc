@@ -26,6 +26,7 @@ const std::map<std::string, std::function<Case(int)>>& Models() {
           {"net", verification::SpinningNet},
           {"cable_net", verification::SlackCableNet},
           {"chain", verification::BoxChain},
+          {"conventional_chain", verification::ConventionalBoxChain},
           {"trussed_boxes", verification::TrussedBoxes}};
   return *models;
 }
@@ -63,10 +64,11 @@ Command AddGenerateCommand(CLI::App& app) {
                    "File to write; standard output if not given")
       ->type_name("FILE");
   options->footer(R"(Models, of size N:
-  net            a spinning square net of N x N nodes with a hub
-  cable_net      the same of cables, which go slack and taut
-  chain          N boxes joined by spherical joints
-  trussed_boxes  N boxes, neighbours joined by four trusses
+  net                 a spinning square net of N x N nodes with a hub
+  cable_net           the same of cables, which go slack and taut
+  chain               N boxes joined by spherical joints
+  conventional_chain  the same of conventional bodies
+  trussed_boxes       N boxes, neighbours joined by four trusses
 
 Examples:
   emmy generate net --size 60 --output net_60.json

@@ -96,6 +96,21 @@ BENCHMARK(Chain)
     ->Arg(10000)
     ->Unit(benchmark::kMicrosecond);
 
+// The same of conventional bodies: six coordinates a box instead of twelve, a
+// matrix that is made anew in every step, and no lanes.
+void ConventionalChain(benchmark::State& state) {
+  CheckedRun run(ConventionalBoxChain(static_cast<int>(state.range(0))).model,
+                 Options(1e-3), /*warm_up=*/10);
+  run.TimeSteps(state, kKept);
+}
+BENCHMARK(ConventionalChain)
+    ->Name("chain/conventional")
+    ->ArgName("boxes")
+    ->Arg(10)
+    ->Arg(100)
+    ->Arg(1000)
+    ->Unit(benchmark::kMicrosecond);
+
 // Argument: threads. As long as a published chain, of 1,076,748 links.
 void LongChain(benchmark::State& state) {
   IntegratorOptions options = Options(1e-3);

@@ -25,8 +25,10 @@ std::vector<Claim> ExternalClaims();         // external.cc
 // external_structures.cc
 std::vector<Claim> ExternalStructureClaims();
 std::vector<Claim> StructureClaims();  // structures.cc
-std::vector<Claim> BaselineClaims();   // baselines.cc
-std::vector<Claim> FigureClaims();     // figures.cc
+// conventional_joints.cc
+std::vector<Claim> ConventionalJointClaims();
+std::vector<Claim> BaselineClaims();  // baselines.cc
+std::vector<Claim> FigureClaims();    // figures.cc
 
 }  // namespace emmy::verification
 

@@ -185,6 +185,18 @@ Case BoxChain(int n) {
   return value;
 }
 
+Case ConventionalBoxChain(int n) {
+  Case value = BoxChain(n);
+  value.name = absl::StrCat("conventional_box_chain_", n);
+  value.purpose =
+      "A chain of boxes joined by spherical joints, of conventional bodies.";
+  for (RigidBodyDescription& box : value.model.rigid_bodies) {
+    box.formulation = Formulation::kConventional;
+    box.penalty = std::monostate();
+  }
+  return value;
+}
+
 Case BoxGrid(int n) {
   Case value = EmptyCase(absl::StrCat("box_grid_", n),
                          "A square grid of boxes joined by spherical joints.");

@@ -23,6 +23,9 @@ Case SlackCableNet(int n);
 // faces (spherical joints), each with an angular velocity of its own.
 Case BoxChain(int n);
 
+// The same chain of conventional bodies.
+Case ConventionalBoxChain(int n);
+
 // n × n boxes of 3 × 2 × 1 m in a square grid, neighbours sharing the middle of
 // their faces: 2 n (n − 1) joints in closed loops. It spins in its plane, and
 // each row and column of boxes tilts its own way.

@@ -23,7 +23,9 @@ ConservedQuantities QuantitiesConservedBy(const Model& model) {
                     return line.ends[0].is_ground() || line.ends[1].is_ground();
                   }) ||
       std::any_of(model.constraints().begin(), model.constraints().end(),
-                  [](const ModelConstraint& c) { return c.to_ground; });
+                  [](const ModelConstraint& c) { return c.to_ground; }) ||
+      std::any_of(model.joints().begin(), model.joints().end(),
+                  [](const ModelJoint& joint) { return joint.to_ground(); });
   const bool free =
       !grounded && model.gravity().isZero(0.0) && model.forces().empty();
   return {.energy = true,

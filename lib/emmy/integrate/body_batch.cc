@@ -214,8 +214,8 @@ absl::StatusOr<BodyBatch> BodyBatch::Create(const Model& model,
         "num_threads: must be at least 1, got ", options.num_threads));
   }
   if (!model.nodes().empty() || !model.lines().empty() ||
-      !model.constraints().empty() || !model.forces().empty() ||
-      !model.torques().empty()) {
+      !model.constraints().empty() || !model.joints().empty() ||
+      !model.forces().empty() || !model.torques().empty()) {
     return absl::InvalidArgumentError(
         "model: a batch takes free rigid bodies alone, without nodes, "
         "elements, shared points or loads other than gravity");

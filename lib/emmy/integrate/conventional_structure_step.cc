@@ -89,13 +89,16 @@ absl::Status ConventionalStructureStep::Gather() {
   GatherMasses();
   status = GatherLoads();
   if (!status.ok()) return status;
-  const Index size = 6 * static_cast<Index>(bodies_.size()) +
-                     3 * static_cast<Index>(nodes_.size());
+  status = GatherJoints();
+  if (!status.ok()) return status;
   for (VectorXd* v : {&unknown_, &residual_, &magnitude_, &correction_}) {
-    v->setZero(size);
+    v->setZero(3 * static_cast<Index>(NumBlocks()));
   }
-  tangent_.setZero(size, size);
-  factor_ = Eigen::PartialPivLU<MatrixXd>(size);
+  if (joints_.empty()) {
+    tangent_.MakeDense(NumBlocks());
+  } else {
+    MakePattern();
+  }
   return absl::OkStatus();
 }
 
@@ -211,6 +214,7 @@ void ConventionalStructureStep::Load(const State& state) {
     for (End& end : line.ends) LoadEnd(state, &end);
   }
   for (Force& force : forces_) LoadEnd(state, &force.end);
+  LoadJoints(state);
 }
 
 void ConventionalStructureStep::EvaluateBody(size_t index) {
@@ -337,6 +341,7 @@ void ConventionalStructureStep::Evaluate() {
     EvaluateEnd(&force.end);
     AddImpulse(force.end, -time_step_ * force.force);
   }
+  EvaluateJoints();
   for (const Torque& torque : torques_) {
     bodies_[static_cast<size_t>(torque.body)].torque -=
         time_step_ * torque.torque;
@@ -352,41 +357,46 @@ void ConventionalStructureStep::AddToTangent(const End& first,
                                              const End& second,
                                              const Matrix3d& stiffness) {
   const auto blocks = [this](const End& end) {
-    // Start row and the 3 × n matrix of ∂v_c.
+    // First block, their number, and the 3 × n matrix of ∂v_c.
     Eigen::Matrix<double, 3, 6> map = Eigen::Matrix<double, 3, 6>::Zero();
     map.leftCols<3>().setIdentity();
     if (end.body >= 0) {
       const Body& body = bodies_[static_cast<size_t>(end.body)];
       map.rightCols<3>() = -Hat(end.arm) * body.rotation;
-      return std::make_pair(std::make_pair(BodyRow(end.body), Index{6}), map);
+      return std::make_pair(std::make_pair(BodyBlock(end.body), 2), map);
     }
-    const Index size = end.node >= 0 ? 3 : 0;
-    return std::make_pair(std::make_pair(NodeRow(end.node), size), map);
+    const int size = end.node >= 0 ? 1 : 0;
+    return std::make_pair(std::make_pair(NodeBlock(end.node), size), map);
   };
   const auto [rows, left] = blocks(first);
   const auto [columns, right] = blocks(second);
   if (rows.second == 0 || columns.second == 0) return;
   const Eigen::Matrix<double, 6, 6> product =
       left.transpose() * stiffness * right;
-  tangent_.block(rows.first, columns.first, rows.second, columns.second) +=
-      product.topLeftCorner(rows.second, columns.second);
+  for (int r = 0; r < rows.second; ++r) {
+    for (int c = 0; c < columns.second; ++c) {
+      tangent_.Add(rows.first + r, columns.first + c,
+                   product.block<3, 3>(3 * Index{r}, 3 * Index{c}));
+    }
+  }
 }
 
-void ConventionalStructureStep::FormTangent() {
-  tangent_.setZero();
+bool ConventionalStructureStep::FormTangent() {
+  tangent_.SetZero();
   for (size_t i = 0; i < bodies_.size(); ++i) {
-    const Index row = BodyRow(static_cast<int>(i));
+    const int row = BodyBlock(static_cast<int>(i));
     const ConventionalRigidBody& element = *bodies_[i].body->conventional();
     const Vector3d momentum = element.tensor() * bodies_[i].mean_omega;
-    tangent_.block<3, 3>(row, row) = element.mass() * Matrix3d::Identity();
-    tangent_.block<3, 3>(row + 3, row + 3) =
-        element.tensor() +
-        (0.5 * time_step_) *
-            (Hat(bodies_[i].mean_omega) * element.tensor() - Hat(momentum));
+    tangent_.Add(row, row, element.mass() * Matrix3d::Identity());
+    tangent_.Add(
+        row + 1, row + 1,
+        element.tensor() + (0.5 * time_step_) *
+                               (Hat(bodies_[i].mean_omega) * element.tensor() -
+                                Hat(momentum)));
   }
   for (const Mass& mass : masses_) {
-    tangent_.block<3, 3>(NodeRow(mass.row), NodeRow(mass.column)) +=
-        mass.mass * Matrix3d::Identity();
+    tangent_.Add(NodeBlock(mass.row), NodeBlock(mass.column),
+                 mass.mass * Matrix3d::Identity());
   }
   const double quarter = 0.25 * time_step_ * time_step_;
   for (const Line& line : lines_) {
@@ -405,7 +415,8 @@ void ConventionalStructureStep::FormTangent() {
       }
     }
   }
-  factor_.compute(tangent_);
+  AddJointsToTangent();
+  return tangent_.Factorize();
 }
 
 // Σ r·w̄, which is the energy a residual puts in (EM-7).
@@ -442,7 +453,7 @@ Vector3d ConventionalStructureStep::Moment() const {
   return moment;
 }
 
-BodyStepResult ConventionalStructureStep::Iterate() {
+BodyStepResult ConventionalStructureStep::Iterate(bool damped) {
   BodyStepResult result;
   StagnationMonitor rate_monitor;
   StagnationMonitor work_monitor;
@@ -455,7 +466,11 @@ BodyStepResult ConventionalStructureStep::Iterate() {
     // Anew in every step, since the effective masses turn with the bodies;
     // and within a step where it no longer serves.
     constexpr double kSlow = 0.3;
-    if (i == 1 || result.correction > kSlow * previous) FormTangent();
+    const bool renew = i == 1 || damped || result.correction > kSlow * previous;
+    if (renew && !FormTangent()) {
+      result.termination = Termination::kSingularTangent;
+      return result;
+    }
     previous = i == 1 ? previous : result.correction;
     double rate = 0.0;
     double size = 0.0;
@@ -463,6 +478,10 @@ BodyStepResult ConventionalStructureStep::Iterate() {
       rate = std::max({rate, body.mean_velocity.cwiseAbs().maxCoeff(),
                        body.mean_omega.cwiseAbs().maxCoeff()});
       size = std::max(size, body.x0.norm());
+      // What the rounding of a joint's rate may do to W.
+      if (!joints_.empty()) {
+        rate = std::max(rate, 0.5 * body.mean_velocity.norm() / body.gyration);
+      }
     }
     for (const Node& node : nodes_) {
       rate = std::max(rate, node.mean_rate.cwiseAbs().maxCoeff());
@@ -470,10 +489,14 @@ BodyStepResult ConventionalStructureStep::Iterate() {
     }
     const double work = std::abs(Work());
     const double moment = Moment().cwiseAbs().maxCoeff();
-    correction_ = factor_.solve(residual_);
+    tangent_.Solve(residual_, &correction_);
+    if (damped) LimitTurns();
     unknown_ -= correction_;
-    result.correction = correction_.cwiseAbs().maxCoeff<Eigen::PropagateNaN>();
-    if (!std::isfinite(result.correction)) {
+    result.correction = correction_.head(JointRow(0))
+                            .cwiseAbs()
+                            .maxCoeff<Eigen::PropagateNaN>();
+    if (!std::isfinite(result.correction) ||
+        !correction_.tail(correction_.size() - JointRow(0)).allFinite()) {
       result.termination = Termination::kNonFinite;
       return result;
     }
@@ -502,15 +525,49 @@ BodyStepResult ConventionalStructureStep::Iterate() {
 
 BodyStepResult ConventionalStructureStep::Solve(const State& state) {
   Load(state);
-  BodyStepResult result = Iterate();
-  if (result.termination != Termination::kConverged) {
+  BodyStepResult result = Iterate(/*damped=*/false);
+  // Once more from rest, and with joints a third time in small turns.
+  for (const bool damped : {false, true}) {
+    if (result.termination == Termination::kConverged) break;
+    if (damped && joints_.empty()) break;
     const int iterations = result.iterations;
     unknown_.setZero();
-    result = Iterate();
+    result = Iterate(damped);
     result.iterations += iterations;
   }
   Evaluate();
+  open_joint_ = nullptr;
+  if (result.termination == Termination::kConverged && !KeepsEnergy()) {
+    result.termination = Termination::kMaxIterations;
+  }
+  if (result.termination == Termination::kConverged) {
+    open_joint_ = OpenJoint();
+    if (open_joint_ != nullptr) {
+      result.termination = Termination::kSingularTangent;
+    }
+  }
   return result;
+}
+
+std::string ConventionalStructureStep::WorstPart() const {
+  if (open_joint_ != nullptr) {
+    return absl::StrCat(open_joint_->name,
+                        ", which opens where other shared points held it at "
+                        "the start");
+  }
+  size_t worst = 0;
+  double largest = -1.0;
+  for (size_t i = 0; i < bodies_.size(); ++i) {
+    const double size =
+        residual_.segment<6>(BodyRow(static_cast<int>(i))).norm();
+    // The first that is not finite is worse than any other.
+    if (size <= largest) continue;
+    worst = i;
+    largest = size;
+    if (!std::isfinite(size)) break;
+  }
+  return absl::StrCat("the structure of body \"", bodies_[worst].body->name,
+                      "\"");
 }
 
 void ConventionalStructureStep::Commit(State& state) const {
@@ -560,6 +617,7 @@ void ConventionalStructureStep::Commit(State& state) const {
       }
     }
   }
+  CommitJoints(state);
 }
 
 }  // namespace emmy

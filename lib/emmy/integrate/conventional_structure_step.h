@@ -1,5 +1,5 @@
 // One energy-momentum step of conventional bodies with trusses, cables,
-// springs, nodes and loads: the comparator of structures.
+// springs, nodes, joints and loads: the comparator of structures.
 //
 // Unknown: Δv and ΔW of each body, Δw of each node. With Θ = Δt W̄ and
 // R̄ = ½ (R₀ + R₁) = R₀ (1 − ½ Hat(Θ))⁻¹, a point ξ of a body moves by
@@ -13,20 +13,28 @@
 // effective mass matrix changes with the attitude: the tangent is formed and
 // factorised anew in every step.
 //
-// Not covered: points shared by conventional bodies; structures that mix
-// conventional and ANCF bodies.
+// A joint adds impulses −λ̂ = −Δt λ and λ̂ at its two points as above, and
+//   2 (v̄_c1 − v̄_c2 + c₀/Δt) = 0,  c = x_c1 − x_c2                  (CONJ-1)
+// so that the gap c₁ at the end is zero; c₀ is measured in extended precision,
+// and what rounding left of it is closed by the next step. Corrections are
+// those of Newton's method with the exact Jacobian of the joints (CONJ-4).
+//
+// Not covered: structures that mix conventional and ANCF bodies.
 
 #ifndef EMMY_INTEGRATE_CONVENTIONAL_STRUCTURE_STEP_H_
 #define EMMY_INTEGRATE_CONVENTIONAL_STRUCTURE_STEP_H_
 
-#include <Eigen/LU>
+#include <array>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "absl/status/statusor.h"
+#include "emmy/base/double_double.h"
 #include "emmy/base/types.h"
 #include "emmy/integrate/ancf_body_step.h"
+#include "emmy/integrate/conventional_tangent.h"
 #include "emmy/model/model.h"
 #include "emmy/model/state.h"
 #include "emmy/numerics/newton.h"
@@ -44,11 +52,17 @@ class ConventionalStructureStep {
   // Whether body `index` of the model is solved here.
   bool Contains(size_t index) const { return local_body_[index] >= 0; }
 
-  // Solves (CRB-7); `state` is not changed.
+  // Solves (CRB-7) and (CONJ-1); `state` is not changed. Ends with
+  // kSingularTangent, too, if a joint opens along a direction that other joints
+  // held at the start of the run.
   BodyStepResult Solve(const State& state);
 
   // Advances `state` by the last solution, except its time.
   void Commit(State& state) const;
+
+  // The joint that opens or else the body with the largest residual, after a
+  // step that failed.
+  std::string WorstPart() const;
 
  private:
   struct Body {
@@ -62,6 +76,9 @@ class ConventionalStructureStep {
     Vector3d mean_velocity, mean_omega, increment;  // v̄, W̄, Δx̄
     Matrix3d mean_rotation, inverse_mean_rotation;  // R̄, R̄⁻¹
     Vector3d torque;                                // Σ (R̄ ξ) × impulses
+    // For joints: R₀, by columns, and the radius of gyration [m].
+    std::array<DoubleDouble3, 3> frame;
+    double gyration = 0.0;
   };
   struct Node {
     const VectorCoordinate* vector = nullptr;
@@ -86,6 +103,14 @@ class ConventionalStructureStep {
     double strain_compensation = 0.0;
     Vector3d mean;  // d̄
     LineElement::Response response = {};
+  };
+  struct Joint {
+    const ModelJoint* joint = nullptr;
+    Eigen::Index multiplier = 0;  // In the state.
+    std::array<End, 2> ends;
+    // Start: projection onto what is held, inertial axes; c₀/Δt.
+    Matrix3d held = Matrix3d::Identity();
+    Vector3d closing_rate;
   };
   struct Mass {  // Between nodes, each ordered pair.
     int row = 0;
@@ -114,10 +139,23 @@ class ConventionalStructureStep {
   absl::StatusOr<int> LocalNode(int vector);
   int LocalBody(size_t index);
 
-  Index BodyRow(int body) const { return 6 * static_cast<Index>(body); }
+  // Blocks of three unknowns: v and W of the bodies, nodes, joints.
+  int BodyBlock(int body) const { return 2 * body; }
+  int NodeBlock(int node) const {
+    return 2 * static_cast<int>(bodies_.size()) + node;
+  }
+  int JointBlock(int joint) const {
+    return NodeBlock(static_cast<int>(nodes_.size())) + joint;
+  }
+  int NumBlocks() const { return JointBlock(static_cast<int>(joints_.size())); }
+  Index BodyRow(int body) const {
+    return 3 * static_cast<Index>(BodyBlock(body));
+  }
   Index NodeRow(int node) const {
-    return 6 * static_cast<Index>(bodies_.size()) +
-           3 * static_cast<Index>(node);
+    return 3 * static_cast<Index>(NodeBlock(node));
+  }
+  Index JointRow(int joint) const {
+    return 3 * static_cast<Index>(JointBlock(joint));
   }
 
   void Load(const State& state);
@@ -127,12 +165,25 @@ class ConventionalStructureStep {
   void AddImpulse(const End& end, const Vector3d& impulse);
   void EvaluateBody(size_t index);
   void EvaluateLine(Line* line);
-  void FormTangent();
-  BodyStepResult Iterate();
+  bool FormTangent();
+  BodyStepResult Iterate(bool damped);
   double Work() const;
   Vector3d Moment() const;
   void AddToTangent(const End& first, const End& second,
                     const Matrix3d& stiffness);
+  // Joints.
+  absl::Status GatherJoints();
+  void MakePattern();
+  DoubleDouble3 Place(const State& state, const End& end,
+                      const Vector3d& rest) const;
+  void LoadJoints(const State& state);
+  std::pair<Vector3d, Vector3d> SplitRate(const End& end) const;
+  void EvaluateJoints();
+  void AddJointsToTangent();
+  void LimitTurns();
+  bool KeepsEnergy() const;
+  const ModelJoint* OpenJoint() const;
+  void CommitJoints(State& state) const;
 
   const Model* model_;
   double time_step_;
@@ -145,9 +196,10 @@ class ConventionalStructureStep {
   std::vector<Mass> masses_;
   std::vector<Force> forces_;
   std::vector<Torque> torques_;
+  std::vector<Joint> joints_;
+  const ModelJoint* open_joint_ = nullptr;  // Of the last solution.
   VectorXd unknown_, residual_, magnitude_, correction_;
-  MatrixXd tangent_;
-  Eigen::PartialPivLU<MatrixXd> factor_;
+  ConventionalTangent tangent_;
 };
 
 }  // namespace emmy

@@ -74,8 +74,7 @@ absl::Status EnergyMomentumIntegrator::MakeSteps(const Model& model) {
     start_.strain.SetZero(model.num_strains());
     start_.end_velocity.SetZero(model.num_end_velocities());
     start_.acceleration.SetZero(model.num_velocities());
-    start_.multiplier.SetZero(
-        3 * static_cast<Eigen::Index>(model.constraints().size()));
+    start_.multiplier.SetZero(model.num_multipliers());
   }
   return absl::OkStatus();
 }

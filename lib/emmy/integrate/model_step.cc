@@ -196,7 +196,7 @@ bool ModelStep::Solve(const State& state, StepReport* report) {
   }
   if (conventional_structure_.has_value()) {
     const BodyStepResult result = conventional_structure_->Solve(state);
-    const auto name = [] { return "a conventional body's structure"; };
+    const auto name = [this] { return conventional_structure_->WorstPart(); };
     if (!Accept(result, state, name, report)) return false;
   }
   return true;

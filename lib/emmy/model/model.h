@@ -77,6 +77,22 @@ struct ModelConstraint {
   bool to_ground = false;  // One of the points is fixed in space.
 };
 
+// Two points, of conventional bodies or of one and the ground, that stay
+// together: x₁ − x₂ = 0 along the directions held.           (CONJ-1, CONJ-2)
+struct ModelJoint {
+  std::string name;  // JSON pointer, for messages.
+  // The second, on a body or on the ground, is exactly where the first is at
+  // the start: `rest` is what a double leaves out of its ξ or its place.
+  std::array<Point, 2> points;
+  Vector3d rest = Vector3d::Zero();
+  // Projection onto the directions that are not held by other joints already,
+  // in axes of the first point's body; their number.
+  Matrix3d held = Matrix3d::Identity();
+  int num_held = 3;
+
+  bool to_ground() const { return points[1].is_ground(); }
+};
+
 // A constant force at a point; a constant torque on a body.
 struct ModelForce {
   Point point;
@@ -113,6 +129,7 @@ class Model {
   const std::vector<ModelConstraint>& constraints() const {
     return constraints_;
   }
+  const std::vector<ModelJoint>& joints() const { return joints_; }
   const std::vector<ModelForce>& forces() const { return forces_; }
   const std::vector<ModelTorque>& torques() const { return torques_; }
   const std::vector<VectorCoordinate>& vectors() const { return vectors_; }
@@ -125,10 +142,18 @@ class Model {
   Eigen::Index num_strains() const { return num_strains_; }
   Eigen::Index num_end_velocities() const { return num_end_velocities_; }
 
+  // Forces of constraints, then of joints, in the state: three each.
+  Eigen::Index num_multipliers() const {
+    return 3 * static_cast<Eigen::Index>(constraints_.size() + joints_.size());
+  }
+
   // Independent velocities: 12 for an ANCF body, 6 for a conventional one, 3
-  // for a free node, less 3 for each constraint.
+  // for a free node, less 3 for each constraint and the directions that each
+  // joint holds.
   Eigen::Index degrees_of_freedom() const {
-    return num_velocities_ - 3 * static_cast<Eigen::Index>(constraints_.size());
+    Eigen::Index held = 3 * static_cast<Eigen::Index>(constraints_.size());
+    for (const ModelJoint& joint : joints_) held += joint.num_held;
+    return num_velocities_ - held;
   }
 
  private:
@@ -139,6 +164,7 @@ class Model {
   std::vector<ModelNode> nodes_;
   std::vector<ModelLine> lines_;
   std::vector<ModelConstraint> constraints_;
+  std::vector<ModelJoint> joints_;
   std::vector<ModelForce> forces_;
   std::vector<ModelTorque> torques_;
   std::vector<VectorCoordinate> vectors_;

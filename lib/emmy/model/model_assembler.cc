@@ -8,6 +8,7 @@
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_format.h"
 #include "emmy/model/constraint_rank.h"
+#include "emmy/model/joint_rank.h"
 #include "emmy/model/rigid_body_assembly.h"
 #include "emmy/model/validation.h"
 #include "emmy/numerics/rotation.h"
@@ -29,24 +30,28 @@ void Append(const VectorXd& part, VectorXd* whole) {
   whole->segment(offset, part.size()) = part;
 }
 
-// R ξ of a conventional body.
-DoubleDouble3 BodyArm(const State& state, const ModelBody& body,
-                      const Vector3d& xi) {
+// R of a conventional body, by columns.
+std::array<DoubleDouble3, 3> BodyFrame(const State& state,
+                                       const ModelBody& body) {
   std::array<DoubleDouble, 4> quaternion;
   for (size_t i = 0; i < 4; ++i) {
     const auto row = body.position_offset + 3 + static_cast<Eigen::Index>(i);
     quaternion[i] = {state.position.value(row),
                      state.position.compensation(row)};
   }
-  const std::array<DoubleDouble3, 3> frame = QuaternionToMatrix(quaternion);
+  return QuaternionToMatrix(quaternion);
+}
+
+// R ξ of a conventional body.
+DoubleDouble3 BodyArm(const State& state, const ModelBody& body,
+                      const Vector3d& xi) {
+  const std::array<DoubleDouble3, 3> frame = BodyFrame(state, body);
   return DoubleDouble(xi(0)) * frame[0] + DoubleDouble(xi(1)) * frame[1] +
          DoubleDouble(xi(2)) * frame[2];
 }
 
-const char* ConventionalPending() {
-  return "points shared by conventional bodies are not supported yet; use "
-         "formulation \"ancf\", or attach the truss or spring to the body's "
-         "point directly";
+bool IsGround(const ResolvedPoint& point) {
+  return std::holds_alternative<ResolvedGround>(point);
 }
 
 }  // namespace
@@ -70,8 +75,7 @@ absl::StatusOr<BuiltModel> ModelAssembler::Assemble() && {
   }
   state_.end_velocity.compensation.setZero(model_.num_end_velocities_);
   state_.acceleration.SetZero(model_.num_velocities_);
-  state_.multiplier.SetZero(
-      3 * static_cast<Eigen::Index>(model_.constraints_.size()));
+  state_.multiplier.SetZero(model_.num_multipliers());
   return BuiltModel{std::move(model_), std::move(state_)};
 }
 
@@ -250,14 +254,6 @@ absl::Status ModelAssembler::TieSharedPoints() {
     const absl::StatusOr<ResolvedPoint> second =
         Resolve(pointer + "/1", pair[1]);
     if (!second.ok()) return second.status();
-    for (const ResolvedPoint& point : {*first, *second}) {
-      const auto* body = std::get_if<ResolvedBodyPoint>(&point);
-      if (body != nullptr &&
-          model_.bodies_[body->body].conventional() != nullptr) {
-        return absl::UnimplementedError(
-            absl::StrCat(pointer, ": ", ConventionalPending()));
-      }
-    }
     absl::Status status =
         CheckTogether(pointer, MotionOf(*first), MotionOf(*second));
     if (!status.ok()) return status;
@@ -305,6 +301,13 @@ absl::Status ModelAssembler::AddNodes() {
   for (size_t i = 0; i < num_nodes; ++i) {
     const NodeDescription& node = description_.nodes[i];
     model_.nodes_.push_back({node.name, MakePoint(ResolvedNode{i})});
+    if (node.mass > 0.0 &&
+        model_.nodes_.back().point.conventional_body.has_value()) {
+      return absl::UnimplementedError(absl::StrCat(
+          Item("nodes", i), "/mass: must be 0 [kg] for a node shared with a ",
+          "conventional body, got ", NumberText(node.mass),
+          "; make it part of the body's inertia, or use formulation \"ancf\""));
+    }
     AddPointMass(model_.nodes_.back().point, node.mass);
   }
   if (model_.num_velocities_ == 0) {
@@ -425,6 +428,48 @@ absl::Status ModelAssembler::CheckTogether(const std::string& pointer,
   return absl::OkStatus();
 }
 
+// The second point is moved, by what CheckTogether allows, to where the first
+// is, so that the gap is zero beyond a double.
+absl::Status ModelAssembler::AddJoint(const AnchorPair& pair) {
+  ModelJoint joint{.name = pair.pointer,
+                   .points = {MakePoint(pair.first), MakePoint(pair.second)}};
+  if (IsGround(pair.first)) std::swap(joint.points[0], joint.points[1]);
+  Point& second = joint.points[1];
+  for (const Point& point : joint.points) {
+    if (point.terms.empty()) continue;
+    const auto owner = std::find_if(
+        model_.bodies_.begin(), model_.bodies_.end(), [&](const auto& body) {
+          return body.first_vector == point.terms.front().vector;
+        });
+    return absl::UnimplementedError(
+        absl::StrCat(pair.pointer, ": body \"", owner->name,
+                     "\" of formulation \"ancf\" must not share a point with "
+                     "a conventional body; structures that mix the two are not "
+                     "supported yet"));
+  }
+  if (joint.points[0].conventional_body == second.conventional_body) {
+    return absl::OkStatus();  // Of one body: they stay together.
+  }
+  const DoubleDouble3 gap =
+      MotionOf(joint.points[0]).position - MotionOf(second).position;
+  DoubleDouble3 place =
+      DoubleDouble3::FromDouble(second.is_ground() ? second.ground : second.xi);
+  if (second.is_ground()) {
+    place += gap;
+    second.ground = place.ToDouble();
+  } else {
+    const std::array<DoubleDouble3, 3> frame =
+        BodyFrame(state_, model_.bodies_[*second.conventional_body]);
+    for (int i = 0; i < 3; ++i) {
+      place[i] += Dot(frame[static_cast<size_t>(i)], gap);
+    }
+    second.xi = place.ToDouble();
+  }
+  joint.rest = place.LowPart();
+  model_.joints_.push_back(std::move(joint));
+  return absl::OkStatus();
+}
+
 absl::Status ModelAssembler::AddConstraints() {
   std::vector<ModelConstraint> constraints;
   for (const AnchorPair& pair : ties_.remaining()) {
@@ -432,6 +477,12 @@ absl::Status ModelAssembler::AddConstraints() {
     absl::Status status = CheckTogether(pair.pointer, MotionOf(pair.first),
                                         MotionOf(pair.second));
     if (!status.ok()) return status;
+    if (MakePoint(pair.first).conventional_body.has_value() ||
+        MakePoint(pair.second).conventional_body.has_value()) {
+      status = AddJoint(pair);
+      if (!status.ok()) return status;
+      continue;
+    }
     std::map<int, double> row;
     for (const WeightedVector& term : MakePoint(pair.first).terms) {
       row[term.vector] += term.weight;
@@ -442,14 +493,26 @@ absl::Status ModelAssembler::AddConstraints() {
     ModelConstraint constraint{
         .name = pair.pointer,
         .terms = {},
-        .to_ground = std::holds_alternative<ResolvedGround>(pair.first) ||
-                     std::holds_alternative<ResolvedGround>(pair.second)};
+        .to_ground = IsGround(pair.first) || IsGround(pair.second)};
     for (const auto& [vector, weight] : row) {
       if (weight != 0.0) constraint.terms.push_back({vector, weight});
     }
     if (!constraint.terms.empty()) constraints.push_back(std::move(constraint));
   }
   model_.constraints_ = IndependentConstraints(std::move(constraints));
+  std::vector<Matrix3d> rotations;
+  if (!model_.joints_.empty()) {
+    for (const ModelBody& body : model_.bodies_) {
+      Matrix3d& rotation = rotations.emplace_back(Matrix3d::Identity());
+      if (body.conventional() == nullptr) continue;
+      const std::array<DoubleDouble3, 3> frame = BodyFrame(state_, body);
+      for (int i = 0; i < 3; ++i) {
+        rotation.col(i) = frame[static_cast<size_t>(i)].ToDouble();
+      }
+    }
+  }
+  model_.joints_ =
+      IndependentJoints(model_.bodies_, rotations, std::move(model_.joints_));
   if (model_.degrees_of_freedom() <= 0) {
     return absl::InvalidArgumentError(
         "/shared_points: must leave a degree of freedom, got as many "

@@ -3,7 +3,8 @@
 // Elimination is local: a node tied to a body or the ground has no
 // coordinates; its mass, and the forces on it, go to the body by constant
 // weights (reduction full = C · reduced, (PNT-1)). Bodies that share a point
-// keep their coordinates and get a constraint G q = const with constant G.
+// keep their coordinates and get a constraint G q = const with constant G, or a
+// joint if they are conventional.
 
 #ifndef EMMY_MODEL_MODEL_ASSEMBLER_H_
 #define EMMY_MODEL_MODEL_ASSEMBLER_H_
@@ -50,6 +51,7 @@ class ModelAssembler {
   absl::Status TieSharedPoints();
   absl::Status AddNodes();
   absl::Status AddConstraints();
+  absl::Status AddJoint(const AnchorPair& pair);
   absl::Status AddTrusses();
   absl::Status AddSprings();
   absl::Status AddLoads();
