@@ -77,6 +77,12 @@ int64_t NotNegative(int64_t value, const char* name) {
       absl::StrCat(name, ": must be a whole number >= 0, got ", value));
 }
 
+int NumThreads(int value) {
+  if (value >= 1) return value;
+  throw InputError(
+      absl::StrCat("threads: must be a whole number >= 1, got ", value));
+}
+
 std::shared_ptr<History> Run(Simulation& simulation,
                              std::optional<int64_t> steps,
                              std::optional<int64_t> every,
@@ -250,23 +256,27 @@ void BindState(py::class_<Simulation>& simulation) {
 void BindSimulation(py::module_& module) {
   py::class_<Simulation> simulation(module, "Simulation");
   simulation
-      .def(py::init(
-               [](const py::object& description, const py::object& overrides) {
-                 return Simulation::FromText(py::module_::import("emmy._case")
-                                                 .attr("text")(description)
-                                                 .cast<std::string>(),
-                                             Overrides(overrides));
-               }),
-           py::arg("case"), py::kw_only(), py::arg("overrides") = py::none())
+      .def(py::init([](const py::object& description,
+                       const py::object& overrides, int threads) {
+             return Simulation::FromText(py::module_::import("emmy._case")
+                                             .attr("text")(description)
+                                             .cast<std::string>(),
+                                         Overrides(overrides),
+                                         NumThreads(threads));
+           }),
+           py::arg("case"), py::kw_only(), py::arg("overrides") = py::none(),
+           py::arg("threads") = 1)
       .def_static(
           "from_file",
-          [](const py::object& path, const py::object& overrides) {
+          [](const py::object& path, const py::object& overrides, int threads) {
             return Simulation::FromFile(py::module_::import("os")
                                             .attr("fspath")(path)
                                             .cast<std::string>(),
-                                        Overrides(overrides));
+                                        Overrides(overrides),
+                                        NumThreads(threads));
           },
-          py::arg("path"), py::kw_only(), py::arg("overrides") = py::none())
+          py::arg("path"), py::kw_only(), py::arg("overrides") = py::none(),
+          py::arg("threads") = 1)
       .def("run", &Run, py::arg("steps") = py::none(), py::kw_only(),
            py::arg("every") = py::none(), py::arg("progress") = py::none())
       .def(

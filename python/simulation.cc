@@ -72,13 +72,14 @@ Simulation::Simulation(std::string prefix, std::unique_ptr<LoadedCase> loaded,
 std::unique_ptr<Simulation> Simulation::Create(
     const std::string& prefix, std::unique_ptr<LoadedCase> loaded,
     const std::optional<std::string>& path,
-    const std::vector<std::string>& overrides) {
+    const std::vector<std::string>& overrides, int threads) {
   const IntegratorSettings& settings = loaded->description.integrator;
   absl::StatusOr<EnergyMomentumIntegrator> integrator =
       EnergyMomentumIntegrator::Create(loaded->model,
                                        {.order = settings.order,
                                         .time_step = settings.time_step,
-                                        .tolerance = settings.tolerance});
+                                        .tolerance = settings.tolerance,
+                                        .num_threads = threads});
   if (!integrator.ok()) {
     ThrowInputError(path.has_value()
                         ? CaseFileError(*path, overrides, integrator.status())
@@ -89,21 +90,23 @@ std::unique_ptr<Simulation> Simulation::Create(
 }
 
 std::unique_ptr<Simulation> Simulation::FromFile(
-    const std::string& path, const std::vector<std::string>& overrides) {
+    const std::string& path, const std::vector<std::string>& overrides,
+    int threads) {
   absl::StatusOr<LoadedCase> loaded = LoadCaseFile(path, overrides);
   if (!loaded.ok()) ThrowInputError(loaded.status());
   return Create(path + ": ", std::make_unique<LoadedCase>(*std::move(loaded)),
-                path, overrides);
+                path, overrides, threads);
 }
 
 std::unique_ptr<Simulation> Simulation::FromText(
-    const std::string& text, const std::vector<std::string>& overrides) {
+    const std::string& text, const std::vector<std::string>& overrides,
+    int threads) {
   absl::StatusOr<Case> description = ParseCase(text, overrides);
   if (!description.ok()) ThrowInputError(description.status());
   absl::StatusOr<LoadedCase> loaded = BuildCase(*std::move(description));
   if (!loaded.ok()) ThrowInputError(loaded.status());
   return Create("", std::make_unique<LoadedCase>(*std::move(loaded)),
-                std::nullopt, overrides);
+                std::nullopt, overrides, threads);
 }
 
 void Simulation::Run(const RunOptions& options) {

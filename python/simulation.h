@@ -31,11 +31,14 @@ struct StepError : std::runtime_error {
 
 class Simulation {
  public:
-  // Both throw InputError with the message of the program `emmy`.
+  // Both throw InputError with the message of the program `emmy`. `threads` is
+  // at least 1.
   static std::unique_ptr<Simulation> FromFile(
-      const std::string& path, const std::vector<std::string>& overrides);
+      const std::string& path, const std::vector<std::string>& overrides,
+      int threads);
   static std::unique_ptr<Simulation> FromText(
-      const std::string& text, const std::vector<std::string>& overrides);
+      const std::string& text, const std::vector<std::string>& overrides,
+      int threads);
 
   // What a run does besides stepping.
   struct RunOptions {
@@ -67,7 +70,7 @@ class Simulation {
   static std::unique_ptr<Simulation> Create(
       const std::string& prefix, std::unique_ptr<LoadedCase> loaded,
       const std::optional<std::string>& path,
-      const std::vector<std::string>& overrides);
+      const std::vector<std::string>& overrides, int threads);
 
   std::string prefix_;                  // Of messages: "<file>: " or empty.
   std::unique_ptr<LoadedCase> loaded_;  // Pinned: the integrator refers to it.

@@ -139,15 +139,18 @@ class Simulation:
         case: Union[Mapping[str, Any], str],
         *,
         overrides: Optional[Mapping[str, Any]] = None,
+        threads: int = 1,
     ) -> None:
         """`case` is a dict in the form of a case file, or JSON text; vectors
         may be lists or NumPy arrays. `overrides` replaces values by their JSON
-        pointers: {"/integrator/time_step": 1e-4}."""
+        pointers: {"/integrator/time_step": 1e-4}. `threads` share the steps of
+        large nets and long chains; results do not depend on it."""
     @staticmethod
     def from_file(
         path: Union[str, "os.PathLike[str]"],
         *,
         overrides: Optional[Mapping[str, Any]] = None,
+        threads: int = 1,
     ) -> "Simulation": ...
     def run(
         self,

@@ -43,6 +43,13 @@ def test_overrides_replace_values(box):
     assert simulation.case["integrator"]["time_step"] == 0.5
 
 
+def test_threads_change_no_bit(box):
+    alone = emmy.Simulation(box).run(10)
+    assert np.array_equal(emmy.Simulation(box, threads=2).run(10).data, alone.data)
+    with pytest.raises(emmy.InputError, match="threads: must be .* >= 1, got 0"):
+        emmy.Simulation(box, threads=0)
+
+
 @pytest.mark.skipif(not PROGRAM, reason="EMMY_PROGRAM is not set")
 @pytest.mark.parametrize("name", ["paper_box", "paper_truss", "double_pendulum"])
 def test_history_is_that_of_the_program(name, examples, tmp_path):
