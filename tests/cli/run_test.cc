@@ -101,9 +101,10 @@ TEST_F(RunTest, GivesTheSameHistoryEachTime) {
 }
 
 // Steps of 100 s with a body that turns by 99 rad in each cannot converge.
-// 66 x 66 nodes are enough to be shared out (VectorBlocks).
+// 96 x 96 nodes are enough to be shared out (VectorBlocks), and their factor
+// has more than 8 MiB (SupernodalSolve::kLargeFactor): 2.4 million entries.
 TEST_F(RunTest, ThreadsChangeNoBitOfTheHistory) {
-  EXPECT_EQ(Run("generate net --size 66 --output net.json").exit_status, 0);
+  EXPECT_EQ(Run("generate net --size 96 --output net.json").exit_status, 0);
   EXPECT_EQ(Run("run net.json --steps 3 --quiet --output alone").exit_status,
             0);
   EXPECT_EQ(Run("run net.json --steps 3 --quiet --threads 2 --output shared")

@@ -14,6 +14,7 @@
 #include <variant>
 #include <vector>
 
+#include "absl/strings/str_cat.h"
 #include "emmy/diagnostics/extended_state.h"
 #include "emmy/integrate/conventional_structure_step.h"
 #include "emmy/numerics/rotation.h"
@@ -303,6 +304,52 @@ TEST(ConventionalJointAllocationTest, AStepAllocatesNothing) {
   EXPECT_TRUE(ok);
   EXPECT_EQ(after.malloc, before.malloc);
   EXPECT_EQ(after.new_, before.new_);
+}
+
+// Two plates held apart by `legs` rods with a ball at each end: the joints of a
+// rod are linked by it alone, which no order of elimination may forget.
+ModelDescription Platform(int legs) {
+  const Vector3d omega(0.1, -0.2, 0.3);
+  ModelDescription model;
+  const auto add = [&](const std::string& name, const Vector3d& position) {
+    RigidBodyDescription body = PaperBox(Formulation::kConventional);
+    body.name = name;
+    body.position = position;
+    body.angular_velocity = omega;
+    body.velocity = omega.cross(position);
+    model.rigid_bodies.push_back(body);
+  };
+  const Vector3d height(0.0, 0.0, 3.0);
+  add("base", Vector3d::Zero());
+  add("plate", height);
+  for (int i = 0; i < legs; ++i) {
+    const auto on_circle = [](double turn) {
+      const double angle = 2.0 * M_PI * turn;
+      return Vector3d(std::cos(angle), std::sin(angle), 0.0);
+    };
+    // In pairs, so that the plate cannot turn against the base.
+    const double turn = static_cast<double>(i) / legs;
+    const Vector3d foot = on_circle(turn);
+    const Vector3d head = on_circle(turn + (i % 2 == 0 ? 0.08 : -0.08));
+    const Vector3d half = 0.5 * (height + head - foot);
+    const std::string name = absl::StrCat("leg_", i);
+    add(name, foot + half);
+    model.shared_points.push_back(
+        {BodyPoint{"base", foot}, BodyPoint{name, -half}});
+    model.shared_points.push_back(
+        {BodyPoint{name, half}, BodyPoint{"plate", head}});
+  }
+  return model;
+}
+
+TEST(ConventionalJointTest, KeepsTheLawsOfAPlatformOnLegs) {
+  for (const int legs : {1, 2, 3, 4, 5, 6}) {
+    TestRun run(Platform(legs), kTimeStep);
+    const InvariantMonitor monitor = run.Watch(100);
+    EXPECT_EQ(run.state().step, 100) << legs;
+    EXPECT_LE(monitor.energy().max_relative_error(), kKept) << legs;
+    EXPECT_LE(monitor.angular_momentum().max_relative_error(), kKept) << legs;
+  }
 }
 
 }  // namespace

@@ -85,7 +85,7 @@ TEST(BlockLuTest, SolvesAClosedLoop) {
   EXPECT_LE(Filled(20, pairs, 10).Miss(), kMiss);
 }
 
-// A multiplier is eliminated between the two blocks that it waits for.
+// All multipliers of a star are left when the last block is eliminated.
 TEST(BlockLuTest, SolvesAStarWithMultipliers) {
   Pairs pairs;
   for (int i = 1; i < 8; ++i) {

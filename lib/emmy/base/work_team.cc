@@ -1,10 +1,16 @@
 #include "emmy/base/work_team.h"
 
+#include <system_error>
+
 namespace emmy {
 
 WorkTeam::WorkTeam(size_t size) {
-  for (size_t member = 1; member < size; ++member) {
-    others_.emplace_back([this, member] { Serve(member); });
+  try {
+    for (size_t member = 1; member < size; ++member) {
+      others_.emplace_back([this, member] { Serve(member); });
+    }
+  } catch (const std::system_error&) {
+    // Those that there are do the work.
   }
 }
 

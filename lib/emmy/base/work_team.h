@@ -14,7 +14,8 @@ namespace emmy {
 
 class WorkTeam {
  public:
-  // `size` threads, at least one: the caller's, and others.
+  // `size` threads, at least one: the caller's, and others; fewer where the
+  // system gives no more.
   explicit WorkTeam(size_t size);
   ~WorkTeam();
   WorkTeam(const WorkTeam&) = delete;

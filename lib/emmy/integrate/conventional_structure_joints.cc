@@ -35,8 +35,8 @@ absl::Status ConventionalStructureStep::GatherJoints() {
   return absl::OkStatus();
 }
 
-// The multipliers are eliminated after the velocity of one of their bodies,
-// which gives them a diagonal block of −1/m.
+// The multipliers are eliminated after both velocities of all their bodies
+// (block_lu.h).
 void ConventionalStructureStep::MakePattern() {
   const auto blocks = [this](const End& end) -> std::vector<int> {
     if (end.body >= 0) return {BodyBlock(end.body), BodyBlock(end.body) + 1};
@@ -66,7 +66,9 @@ void ConventionalStructureStep::MakePattern() {
     for (const End& end : joints_[i].ends) {
       join({row}, blocks(end));
       if (end.body < 0) continue;
-      waits_for[static_cast<size_t>(row)].push_back(BodyBlock(end.body));
+      for (const int block : blocks(end)) {
+        waits_for[static_cast<size_t>(row)].push_back(block);
+      }
     }
   }
   tangent_.MakeSparse(NumBlocks(), pairs, waits_for);

@@ -17,11 +17,11 @@ namespace {
 
 constexpr double kUnitRoundoff = std::numeric_limits<double>::epsilon() / 2.0;
 
-// More than one where the structure is large.
+// One, or where the structure is large up to one a block.
 size_t NumThreads(const Structure& structure, int wanted) {
-  return VectorBlocks(structure.num_vectors()).count() == 0
-             ? 1
-             : static_cast<size_t>(wanted);
+  const size_t blocks = VectorBlocks(structure.num_vectors()).count();
+  return std::clamp<size_t>(static_cast<size_t>(wanted), 1,
+                            std::max<size_t>(blocks, 1));
 }
 
 // NaN if any entry is.

@@ -19,7 +19,8 @@ class StructureLines {
  public:
   explicit StructureLines(const Structure& structure);
 
-  // Takes q₀ and its compensation, which must stay until the next Load.
+  // Takes q₀ and its compensation, which must stay where they are until the
+  // next Load.
   void Load(const Matrix3Xd& q0, const Matrix3Xd& q0_compensation);
 
   // Adds Δt t φ d̄ (LINE-2) at Δq to `residual` and the size of each such term

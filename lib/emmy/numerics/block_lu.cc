@@ -16,11 +16,11 @@ class Elimination {
   Elimination(int num_blocks, const std::vector<std::pair<int, int>>& pairs,
               const std::vector<std::vector<int>>& waits_for)
       : live_(static_cast<size_t>(num_blocks)),
-        waits_(static_cast<size_t>(num_blocks), false),
+        waits_(static_cast<size_t>(num_blocks), 0),
         waited_for_(static_cast<size_t>(num_blocks)) {
     for (const auto& [row, column] : pairs) Connect(row, column);
     for (size_t i = 0; i < waits_for.size(); ++i) {
-      waits_[i] = !waits_for[i].empty();
+      waits_[i] = waits_for[i].size();
       for (const int other : waits_for[i]) {
         waited_for_[static_cast<size_t>(other)].push_back(static_cast<int>(i));
       }
@@ -42,7 +42,7 @@ class Elimination {
       for (const int j : *neighbours) Connect(i, j);
     }
     for (const int i : waited_for_[static_cast<size_t>(pivot)]) {
-      waits_[static_cast<size_t>(i)] = false;
+      --waits_[static_cast<size_t>(i)];
     }
     for (const int i : *neighbours) Enter(i);
     return pivot;
@@ -58,12 +58,12 @@ class Elimination {
     return {live_[static_cast<size_t>(i)].size(), i};
   }
   void Enter(int i) {
-    if (!waits_[static_cast<size_t>(i)]) queue_.insert(Key(i));
+    if (waits_[static_cast<size_t>(i)] == 0) queue_.insert(Key(i));
   }
   void Leave(int i) { queue_.erase(Key(i)); }
 
   std::vector<std::set<int>> live_;  // Neighbours not yet eliminated.
-  std::vector<bool> waits_;
+  std::vector<size_t> waits_;        // For how many blocks.
   std::vector<std::vector<int>> waited_for_;
   std::set<std::pair<size_t, int>> queue_;  // By degree.
 };
@@ -130,7 +130,10 @@ bool BlockLu::Factorize() {
   for (size_t k = 0; k < pivots_.size(); ++k) {
     const Pivot& pivot = pivots_[k];
     inverses_[k] = blocks_[pivot.diagonal].inverse();
-    if (!inverses_[k].allFinite()) return false;
+    constexpr double kLargestCondition = 0x1p48;  // Five bits would be left.
+    const double condition =
+        inverses_[k].norm() * blocks_[pivot.diagonal].norm();
+    if (!(condition <= kLargestCondition)) return false;
     const size_t* target = updates_.data() + pivot.update;
     for (size_t i = pivot.first; i < pivot.first + pivot.count; ++i) {
       const Matrix3d factor = blocks_[lower_[i]] * inverses_[k];

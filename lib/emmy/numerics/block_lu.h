@@ -5,8 +5,10 @@
 // Symbolic once, with the block of least degree first, so that chains and trees
 // fill in nothing; numeric renewed without allocation. No pivoting between
 // blocks: for matrices near a quasi-definite one (joint systems), whose
-// multipliers have no diagonal block of their own and must wait until a block
-// that gives them one is eliminated.
+// multipliers have no diagonal block of their own. They wait for all blocks
+// that they act on: what these leave is definite, and so is every pivot in it.
+// After one of these blocks alone a pivot may vanish, as that of the second
+// joint on a rod, whose ends keep their distance.
 //
 // The solution need not be exact: it is used as a correction, and only the
 // residual decides the result.
@@ -30,7 +32,7 @@ class BlockLu {
   // `pairs` are the (row, column) blocks off the diagonal that may be non-zero,
   // in any order and with repetitions; the mirror image of each may be, too.
   // A block with a list in `waits_for` (empty, or one list a block) comes after
-  // one of that list, neighbours that do not wait themselves.
+  // all of that list, which do not wait themselves.
   BlockLu(int num_blocks, const std::vector<std::pair<int, int>>& pairs,
           const std::vector<std::vector<int>>& waits_for);
 
@@ -44,7 +46,8 @@ class BlockLu {
   void SetZero();
   void Add(size_t place, const Matrix3d& block) { blocks_[place] += block; }
 
-  // Overwrites the matrix. False if a pivot is singular or not finite.
+  // Overwrites the matrix. False if a pivot is singular to rounding, or not
+  // finite.
   bool Factorize();
 
   // x = K⁻¹ b for the last factorised K.

@@ -4,7 +4,6 @@
 #include <Eigen/LU>
 #include <Eigen/SparseCholesky>
 
-#include "emmy/numerics/nested_dissection.h"
 #include "emmy/numerics/supernodal_solve.h"
 
 namespace emmy {
@@ -47,7 +46,7 @@ struct SymmetricFactor::Dense final : SymmetricFactor::Backend {
   Eigen::PartialPivLU<Matrix> lu;
 };
 
-template <typename Scalar, typename Ordering>
+template <typename Scalar>
 struct SymmetricFactor::Simplicial final : SymmetricFactor::Backend {
   explicit Simplicial(const SymmetricBlockMatrix& matrix) {
     ldlt.analyzePattern(matrix.lower());
@@ -66,8 +65,7 @@ struct SymmetricFactor::Simplicial final : SymmetricFactor::Backend {
     panels.Solve(b, x, team);
   }
 
-  Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>, Eigen::Lower, Ordering>
-      ldlt;
+  Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>, Eigen::Lower> ldlt;
   SupernodalSolve<Scalar> panels;
   bool analyzed = false;
 };
@@ -89,22 +87,6 @@ struct SymmetricFactor::Supernodal final : SymmetricFactor::Backend {
   Eigen::CholmodSupernodalLLT<Eigen::SparseMatrix<double>, Eigen::Lower> llt;
 };
 
-std::unique_ptr<SymmetricFactor::Backend> SymmetricFactor::MakeSimplicial(
-    const SymmetricBlockMatrix& matrix, bool positive_definite) {
-  using MinimumDegree = Eigen::AMDOrdering<int>;
-  // A quasi-definite factor may grow by 1/κ: that needs every digit.
-  if (!positive_definite) {
-    return std::make_unique<Simplicial<double, MinimumDegree>>(matrix);
-  }
-  // In plane nets dissection leaves 3 % less fill-in at 1600 blocks, 8 % less
-  // at 90,000; the minimum degree is found sooner.
-  constexpr int kManyBlocks = 2000;
-  if (matrix.num_blocks() < kManyBlocks) {
-    return std::make_unique<Simplicial<float, MinimumDegree>>(matrix);
-  }
-  return std::make_unique<Simplicial<float, NestedDissection>>(matrix);
-}
-
 SymmetricFactor::SymmetricFactor(const SymmetricBlockMatrix& matrix,
                                  bool positive_definite, Method method)
     : method_(method) {
@@ -121,7 +103,12 @@ SymmetricFactor::SymmetricFactor(const SymmetricBlockMatrix& matrix,
       break;
     case Method::kAutomatic:
     case Method::kSimplicial:
-      backend_ = MakeSimplicial(matrix, positive_definite);
+      // A quasi-definite factor may grow by 1/κ: that needs every digit.
+      if (positive_definite) {
+        backend_ = std::make_unique<Simplicial<float>>(matrix);
+      } else {
+        backend_ = std::make_unique<Simplicial<double>>(matrix);
+      }
       break;
   }
 }

@@ -4,8 +4,7 @@
 // second diagonal block is negative definite): both have a factorisation
 // L D Lᵀ for any order of elimination (Vanderbei, SIAM J. Optim. 5 (1995)).
 // Small systems are dense, of fixed capacity and without allocation; others
-// sparse with an approximate minimum degree order, or a nested dissection where
-// that leaves less fill-in.
+// sparse with an approximate minimum degree order.
 //
 // The solution need not be exact: it is used as a correction, and only the
 // residual decides the result.
@@ -50,12 +49,9 @@ class SymmetricFactor {
  private:
   struct Backend;
   struct Dense;
-  template <typename Scalar, typename Ordering>
+  template <typename Scalar>
   struct Simplicial;
   struct Supernodal;
-
-  static std::unique_ptr<Backend> MakeSimplicial(
-      const SymmetricBlockMatrix& matrix, bool positive_definite);
 
   Method method_;
   std::unique_ptr<Backend> backend_;
