@@ -307,7 +307,7 @@ Command AddRunCommand(CLI::App& app) {
       ->check(CLI::Validator(CheckSteps, ""));
   options
       ->add_option("--threads", arguments->threads,
-                   "Threads for large nets and long chains (default: 1)")
+                   "Share large nets among N threads (default: 1)")
       ->type_name("N")
       ->check(CLI::Validator(CheckThreads, ""));
   options
