@@ -183,12 +183,15 @@ void BodyBatch::Data::RunBlock(int64_t num_steps, size_t index,
 // for a slower one.
 template <typename Block>
 void BodyBatch::Data::Run(int64_t num_steps, Group<Block>* group, Work* work) {
-  constexpr size_t kBlocksATime = 32;
+  constexpr size_t kMostAtATime = 32;
   const size_t num_blocks = group->blocks.size();
+  // Several portions a thread, also where there are few blocks.
+  const size_t portion =
+      std::clamp<size_t>(num_blocks / (4 * team->size()), 1, kMostAtATime);
   while (true) {
-    const size_t first = group->taken.fetch_add(kBlocksATime);
+    const size_t first = group->taken.fetch_add(portion);
     if (first >= num_blocks) return;
-    const size_t end = std::min(first + kBlocksATime, num_blocks);
+    const size_t end = std::min(first + portion, num_blocks);
     for (size_t i = first; i < end; ++i) {
       RunBlock(num_steps, i, i + 1 < end ? &group->blocks[i + 1] : nullptr,
                group, work);

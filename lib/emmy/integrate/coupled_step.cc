@@ -9,7 +9,6 @@
 
 #include "absl/strings/str_cat.h"
 #include "emmy/integrate/exact_tangent.h"
-#include "emmy/integrate/vector_blocks.h"
 #include "emmy/numerics/rotation.h"
 
 namespace emmy {
@@ -39,6 +38,7 @@ CoupledStep::CoupledStep(const Structure& structure, double time_step,
       tangent_(structure, time_step, options.method),
       team_(std::make_unique<WorkTeam>(
           NumThreads(structure, options.num_threads))),
+      masses_(structure.num_vectors()),
       lines_(structure) {
   const Eigen::Index vectors = structure.num_vectors();
   const Eigen::Index constraints = structure.num_constraints();
@@ -56,25 +56,12 @@ CoupledStep::CoupledStep(const Structure& structure, double time_step,
   for (VectorXd* v : {&strain0_, &strain0_compensation_, &strain_increment_}) {
     v->setZero(strains);
   }
-  SortMasses();
+  for (const Structure::Mass& mass : structure.masses) {
+    masses_.Add(mass, mass.row, mass.column);
+  }
   if (!options.always_factorize && LinedBodyLanes::Fits(structure)) {
     lanes_.emplace(structure, time_step, options.newton);
   }
-}
-
-void CoupledStep::SortMasses() {
-  const VectorBlocks blocks(structure_->num_vectors());
-  std::vector<std::vector<Structure::Mass>> of_block(blocks.count());
-  std::vector<Structure::Mass> rest;
-  for (const Structure::Mass& mass : structure_->masses) {
-    const std::optional<size_t> block = blocks.Common(mass.row, mass.column);
-    (block.has_value() ? of_block[*block] : rest).push_back(mass);
-  }
-  for (const std::vector<Structure::Mass>& masses : of_block) {
-    masses_.insert(masses_.end(), masses.begin(), masses.end());
-    block_end_.push_back(masses_.size());
-  }
-  masses_.insert(masses_.end(), rest.begin(), rest.end());
 }
 
 // Calls work(v) for every vector, by all threads.
@@ -172,23 +159,13 @@ void CoupledStep::EvaluateConstraints() {
 
 // M Δw
 void CoupledStep::EvaluateInertia() {
-  const auto add = [this](size_t first, size_t end) {
-    for (size_t i = first; i < end; ++i) {
-      const auto& [row, column, mass] = masses_[i];
-      residual_.col(row) += mass * dw_.col(column);
-      if (row != column) residual_.col(column) += mass * dw_.col(row);
-    }
+  const auto add = [this](const Structure::Mass& entry) {
+    const auto& [row, column, mass] = entry;
+    residual_.col(row) += mass * dw_.col(column);
+    if (row != column) residual_.col(column) += mass * dw_.col(row);
   };
-  size_t rest = 0;
-  if (!block_end_.empty()) {
-    team_->Run(block_end_.size(),
-               [&](size_t /*member*/, size_t first, size_t end) {
-                 add(first == 0 ? 0 : block_end_[first - 1],
-                     end == 0 ? 0 : block_end_[end - 1]);
-               });
-    rest = block_end_.back();
-  }
-  add(rest, masses_.size());
+  masses_.ForBlocks(team_.get(), add);
+  for (const Structure::Mass& entry : masses_.rest()) add(entry);
 }
 
 // (EM-1) and the residual of (EM-9) at Δw and Δt λ.

@@ -22,7 +22,6 @@
 #include <memory>
 #include <optional>
 #include <string>
-#include <vector>
 
 #include "emmy/base/types.h"
 #include "emmy/base/work_team.h"
@@ -31,6 +30,7 @@
 #include "emmy/integrate/lined_body_lanes.h"
 #include "emmy/integrate/structure.h"
 #include "emmy/integrate/structure_lines.h"
+#include "emmy/integrate/vector_blocks.h"
 #include "emmy/model/state.h"
 #include "emmy/numerics/newton.h"
 #include "emmy/numerics/symmetric_factor.h"
@@ -77,7 +77,6 @@ class CoupledStep {
   void Load(const State& state);
   template <typename Work>
   void ForVectors(const Work& work);
-  void SortMasses();
   void EvaluateInertia();
   void Evaluate();
   void EvaluateBodies();
@@ -102,10 +101,8 @@ class CoupledStep {
   CoupledTangent tangent_;
   bool renew_ = true;
   std::unique_ptr<WorkTeam> team_;
-  // Entries of the mass matrix, those of each block of vectors first.
-  std::vector<Structure::Mass> masses_;
-  std::vector<size_t> block_end_;
-  std::optional<LinedBodyLanes> lanes_;  // Tried first, where it fits.
+  BlockedItems<Structure::Mass> masses_;  // Entries of the mass matrix.
+  std::optional<LinedBodyLanes> lanes_;   // Tried first, where it fits.
 
   // The start of the step.
   Matrix3Xd q0_, q0_compensation_, w0_, w0_compensation_;

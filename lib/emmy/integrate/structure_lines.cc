@@ -1,10 +1,8 @@
 #include "emmy/integrate/structure_lines.h"
 
 #include <cmath>
-#include <optional>
 
 #include "emmy/base/check.h"
-#include "emmy/integrate/vector_blocks.h"
 
 namespace emmy {
 
@@ -30,14 +28,12 @@ void StructureLines::AddToSections(bool is_strut, size_t place) {
   sections_.back().end = place + 1;
 }
 
-StructureLines::StructureLines(const Structure& structure) {
+StructureLines::StructureLines(const Structure& structure)
+    : struts_(structure.num_vectors()) {
   const auto lines = static_cast<Eigen::Index>(structure.lines.size());
   ground_.resize(3, lines);
   if (lines > 0) first_strain_ = structure.lines.front().strain;
   term_begin_.push_back(0);
-  const VectorBlocks blocks(structure.num_vectors());
-  std::vector<std::vector<Strut>> struts_of(blocks.count());
-  std::vector<Strut> rest;
   for (Eigen::Index i = 0; i < lines; ++i) {
     const auto index = static_cast<size_t>(i);
     const Structure::Line& line = structure.lines[index];
@@ -52,24 +48,9 @@ StructureLines::StructureLines(const Structure& structure) {
       continue;
     }
     const Strut strut = MakeStrut(line, static_cast<int>(i));
-    if (const std::optional<size_t> block =
-            blocks.Common(strut.from, strut.to)) {
-      struts_of[*block].push_back(strut);
-    } else {
-      AddToSections(true, rest.size());
-      rest.push_back(strut);
-    }
+    const size_t place = struts_.rest().size();
+    if (!struts_.Add(strut, strut.from, strut.to)) AddToSections(true, place);
   }
-  for (const std::vector<Strut>& struts : struts_of) {
-    struts_.insert(struts_.end(), struts.begin(), struts.end());
-    block_end_.push_back(struts_.size());
-  }
-  for (Section& section : sections_) {
-    if (!section.of_struts) continue;
-    section.first += struts_.size();
-    section.end += struts_.size();
-  }
-  struts_.insert(struts_.end(), rest.begin(), rest.end());
   mean_.setZero(3, lines);
   tension_.setZero(lines);
   derivative_.setZero(lines);
@@ -112,22 +93,15 @@ inline StructureLines::Difference StructureLines::AcrossStrut(
 template <typename OfStrut, typename OfLine>
 void StructureLines::ForEach(WorkTeam* team, const OfStrut& of_strut,
                              const OfLine& of_line) const {
-  const auto struts = [&](size_t first, size_t end) {
-    for (size_t i = first; i < end; ++i) of_strut(struts_[i]);
-  };
-  if (!block_end_.empty()) {
-    team->Run(block_end_.size(),
-              [&](size_t /*member*/, size_t first, size_t end) {
-                struts(first == 0 ? 0 : block_end_[first - 1],
-                       end == 0 ? 0 : block_end_[end - 1]);
-              });
-  }
+  struts_.ForBlocks(team, of_strut);
   for (const Section& section : sections_) {
-    if (section.of_struts) {
-      struts(section.first, section.end);
-      continue;
+    for (size_t i = section.first; i < section.end; ++i) {
+      if (section.of_struts) {
+        of_strut(struts_.rest()[i]);
+      } else {
+        of_line(others_[i]);
+      }
     }
-    for (size_t i = section.first; i < section.end; ++i) of_line(others_[i]);
   }
 }
 

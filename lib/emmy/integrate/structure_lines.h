@@ -12,6 +12,7 @@
 #include "emmy/base/work_team.h"
 #include "emmy/element/line_element.h"
 #include "emmy/integrate/structure.h"
+#include "emmy/integrate/vector_blocks.h"
 
 namespace emmy {
 
@@ -57,7 +58,7 @@ class StructureLines {
   // Lines one after the other: struts, or others.
   struct Section {
     bool of_struts = false;
-    size_t first = 0;  // In struts_ or others_.
+    size_t first = 0;  // In the rest of struts_, or in others_.
     size_t end = 0;
   };
   struct Difference {
@@ -81,11 +82,10 @@ class StructureLines {
   std::vector<WeightedVector> terms_;  // Of all lines, one after the other.
   std::vector<size_t> term_begin_;     // Of each line, and the end.
   Matrix3Xd ground_;                   // Constant part of d.
-  std::vector<Strut> struts_;          // Those of each block, then the rest.
-  std::vector<size_t> block_end_;      // In struts_.
-  std::vector<size_t> others_;         // Lines that are no struts.
-  std::vector<Section> sections_;      // What belongs to no block, in order.
-  Eigen::Index first_strain_ = 0;      // Lines' strains follow the bodies'.
+  BlockedItems<Strut> struts_;
+  std::vector<size_t> others_;     // Lines that are no struts.
+  std::vector<Section> sections_;  // What belongs to no block, in order.
+  Eigen::Index first_strain_ = 0;  // Lines' strains follow the bodies'.
   const Matrix3Xd* q0_ = nullptr;
   const Matrix3Xd* q0_compensation_ = nullptr;
   Matrix3Xd mean_;

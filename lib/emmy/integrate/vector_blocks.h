@@ -9,6 +9,10 @@
 
 #include <cstddef>
 #include <optional>
+#include <utility>
+#include <vector>
+
+#include "emmy/base/work_team.h"
 
 namespace emmy {
 
@@ -35,6 +39,42 @@ class VectorBlocks {
   }
 
   size_t num_vectors_;
+};
+
+// Items that each join two vectors: those of every block, and the rest.
+template <typename Item>
+class BlockedItems {
+ public:
+  explicit BlockedItems(int num_vectors)
+      : blocks_(num_vectors), of_block_(blocks_.count()) {}
+
+  // Whether the item belongs to a block.
+  bool Add(Item item, int first, int second) {
+    const std::optional<size_t> block = blocks_.Common(first, second);
+    (block.has_value() ? of_block_[*block] : rest_).push_back(std::move(item));
+    return block.has_value();
+  }
+
+  // Calls work(item) for those of blocks: of one block one after the other,
+  // blocks at the same time.
+  template <typename Work>
+  void ForBlocks(WorkTeam* team, const Work& work) const {
+    if (of_block_.empty()) return;
+    team->Run(of_block_.size(),
+              [&](size_t /*member*/, size_t first, size_t end) {
+                for (size_t block = first; block < end; ++block) {
+                  for (const Item& item : of_block_[block]) work(item);
+                }
+              });
+  }
+
+  // Those of no block, in the order in which they were added.
+  const std::vector<Item>& rest() const { return rest_; }
+
+ private:
+  VectorBlocks blocks_;
+  std::vector<std::vector<Item>> of_block_;
+  std::vector<Item> rest_;
 };
 
 }  // namespace emmy
