@@ -96,7 +96,8 @@ TEST_F(ConventionalBodyLanesTest, AdvancesTheStateBitForBit) {
     for (double& x : increment.angular_velocity_low) {
       x = 1e-17 * random.Uniform(-1.0, 1.0);
     }
-    CommitInLanes(increment, kTimeStep, gravity, body, fast);
+    CommitInLanes(increment, kTimeStep, CentreIncrement(kTimeStep, gravity),
+                  body, fast);
 
     plain.position.Add(q + 3, Eigen::Map<const Vector4d>(increment.quaternion));
     const Vector3d change = kTimeStep * gravity;

@@ -136,7 +136,7 @@ const std::vector<Ratio>& Ratios() {
        kYardstick, 25.0, false, "set"},
       {"box and truss: conventional over ANCF", "box_and_truss/conventional",
        "box_and_truss/ancf", 1.0, true,
-       "set: a constant inverse (LANE-4) should not be slower than a mass that "
+       "set: a constant inverse (LANE-5) should not be slower than a mass that "
        "turns"},
       {"net 60 x 60, 1 ms: fresh LDLT factors over a kept one",
        "net/fresh_ldlt/side:60/step_us:1000",

@@ -26,103 +26,140 @@ namespace HWY_NAMESPACE {
 
 constexpr double kUnitRoundoff = std::numeric_limits<double>::epsilon() / 2.0;
 
+HWY_INLINE double LargestEntry(const Lanes& own, const Lanes& next,
+                               const Lanes& previous) {
+  return LargestOfBody(Max(Max(Abs(own), Abs(next)), Abs(previous)));
+}
+
 // A step is one long chain of operations that wait for each other. What the
 // chain need not wait for is taken out of it: halves are carried instead of
-// being formed, which is exact.
-BodyStepResult Solve(const AncfBodyLanes& body, const double* position,
-                     const double* position_compensation,
-                     const double* velocity,
-                     const double* velocity_compensation, const double* strain,
-                     const double* strain_compensation,
-                     const double* acceleration,
-                     AncfLanesIncrement* HWY_RESTRICT increment) {
+// being formed, which is exact, and nothing is divided. Of a matrix with a row
+// for each vector and a column along each, `own` holds the diagonal, `next` the
+// entries (i, i + 1) and `previous` the entries (i, i + 2), cyclic.
+HWY_INLINE BodyStepResult SolveBody(const AncfBodyLanes& body,
+                                    const BodyStartNumbers& start,
+                                    AncfLanesIncrement* increment) {
   const double dt = body.time_step;
   const Lanes step = Lanes::Set(dt);
   const Lanes half_step = Lanes::Set(0.5 * dt);
-  const Vectors w0 = LoadVectors(velocity);
-  const Vectors w_low = LoadVectors(velocity_compensation);
-  const Vectors e0 = LoadVectors(position);
-  const Vectors e_low = LoadVectors(position_compensation);
-  const Lanes stretch0 = LoadFromSecond(strain);
-  const Lanes stretch_low = LoadFromSecond(strain_compensation);
+  const Vectors w0 = LoadVectors(start.velocity);
+  const Vectors w_low = LoadVectors(start.velocity_low);
+  const Vectors e0 = LoadVectors(start.position);
+  const Vectors e_low = LoadVectors(start.position_low);
+  const Lanes stretch0 = FromLast(Lanes::LoadPairs(start.strain));
+  const Lanes stretch_low = FromLast(Lanes::LoadPairs(start.strain_low));
   // The first lane holds ε₃ here and ε₄ above; both are multiplied by zero.
-  const Lanes shear0 = Lanes::Load(strain + 2);
-  const Lanes shear_low = Lanes::Load(strain_compensation + 2);
+  const Lanes shear0 = Lanes::LoadPairs(start.strain + 2);
+  const Lanes shear_low = Lanes::LoadPairs(start.strain_low + 2);
 
   BodyStepResult result;
   StagnationMonitor strain_monitor(0x1p-6);
   StagnationMonitor rotation_monitor;
-  Vectors half_dw = half_step * LoadVectors(acceleration);
+  Vectors half_dw = half_step * LoadVectors(start.next);
   for (int i = 1;; ++i) {
     const Vectors mean_w = w0 + (w_low + half_dw);
     const Vectors half_de = half_step * mean_w;
     const Vectors e = e0 + (e_low + half_de);  // ē
     const Vectors e_next = Next(e);
-    const Vectors e_previous = Previous(e);
+    // Ēᵀ ½Δe, without its diagonal.
+    const Lanes forth = Dot(e_next, half_de);    // (i, i + 1)
+    const Lanes back = Dot(e, Next(half_de));    // (i + 1, i)
+    const Lanes back_previous = Previous(back);  // (i, i + 2)
     const Lanes half_stretch = Dot(e, half_de);
-    const Lanes half_shear = Dot(e_next, half_de) + Dot(e, Next(half_de));
     const Lanes mean_stretch = stretch0 + (stretch_low + half_stretch);
-    const Lanes mean_shear = shear0 + (shear_low + half_shear);
-    const Lanes stretch_stress = Lanes::Load(body.stretch) * mean_stretch;
-    const Lanes shear_stress = Lanes::Load(body.shear) * mean_shear;
-    const Vectors force = (stretch_stress * e + shear_stress * e_next) +
-                          Previous(shear_stress) * e_previous;
-    // (EM-2)
-    const Vectors residual =
-        Lanes::Load(body.twice_moment) * half_dw + step * force;
-    const Vectors normal = Cross(e_next, e_previous);
-    // Not zero in the lane that means nothing.
-    const Lanes volume = Dot(e, normal) + Lanes::First(1.0);
-    const Vectors dual = (Lanes::Set(1.0) / volume) * normal;
-    const Vectors dual_next = Next(dual);
-    const Vectors dual_previous = Previous(dual);
+    const Lanes mean_shear = shear0 + (shear_low + (forth + back));
+    const Lanes stretch_impulse = Lanes::Load(body.stretch) * mean_stretch;
+    const Lanes shear_impulse = Lanes::Load(body.shear) * mean_shear;
 
-    // Half of (EM-6): of a pair (m, n), p is rₘ along ēⁿ and q is rₙ along ēᵐ.
-    const Lanes p = Dot(residual, dual_next);
-    const Lanes q = Dot(residual, dual_previous);
-    const Lanes turning = p - Next(q);
-    const Lanes x_own = Lanes::Load(body.half_inverse) * Dot(residual, dual);
-    const Lanes x_next = Lanes::Load(body.half_first) * p +
-                         Lanes::Load(body.half_shear) * turning;
-    const Lanes x_previous =
-        Lanes::Load(body.half_second) * q -
-        Lanes::Load(body.half_shear_previous) * (Previous(p) - q);
-    const Vectors own = x_own * dual;
-    const Vectors others = x_next * dual_next + x_previous * dual_previous;
-    half_dw = (half_dw - own) - others;
+    // (LANE-1): det Ē Ē⁻¹ Δw M, then with the stress, and all that times
+    // 2 − det Ē, which is 1/det Ē but for the square of its distance to 1.
+    const Vectors normal = Cross(e_next, Previous(e));
+    const Vectors momentum = Lanes::Load(body.twice_moment) * half_dw;
+    const Lanes volume = Dot(e, normal);
+    const Lanes scale = Lanes::Set(2.0) - volume;
+    const Lanes scaled_volume = volume * scale;
+    const Lanes inertia_own = scale * Dot(normal, momentum);
+    const Lanes inertia_next = scale * Dot(Next(normal), momentum);
+    const Lanes inertia_previous = scale * Dot(Previous(normal), momentum);
+    // One product for both entries: the stress is symmetric to the bit, and its
+    // rounding turns nothing.
+    const Lanes shear_part = scaled_volume * shear_impulse;
+    const Lanes turning = inertia_next - Next(inertia_previous);
+
+    // (EM-6).
+    const Lanes own0 = Lanes::Load(body.half_inverse) *
+                       (inertia_own + scaled_volume * stretch_impulse);
+    const Lanes next0 =
+        Lanes::Load(body.half_first) * (inertia_next + shear_part) +
+        Lanes::Load(body.half_shear) * turning;
+    const Lanes previous0 = Lanes::Load(body.half_second) *
+                                (inertia_previous + Previous(shear_part)) -
+                            Lanes::Load(body.half_shear_previous) *
+                                (Previous(inertia_next) - inertia_previous);
+    const Lanes own0_next = Next(own0);
+    const Lanes next0_next = Next(next0);
+
+    // (LANE-2): the frame turns by half a step, the stress with its vectors.
+    const Lanes turned_stretch = forth * next0 + back_previous * previous0;
+    const Lanes turned_shear =
+        (back * own0 + forth * own0_next) +
+        (Next(forth) * previous0 + back_previous * next0_next);
+    const Lanes moment =
+        Lanes::Load(body.quarter_step) *
+        ((stretch_impulse * next0 + shear_impulse * (own0_next - own0) -
+          Next(stretch_impulse) * Next(previous0)) +
+         (Previous(shear_impulse) * Previous(previous0) -
+          Next(shear_impulse) * Previous(next0)));
+    const Lanes own = own0 - Lanes::Load(body.stretch_share) * turned_stretch;
+    const Lanes next = next0 - (Lanes::Load(body.first_share) * turned_shear +
+                                Lanes::Load(body.first_moment) * moment);
+    const Lanes previous =
+        previous0 - Previous(Lanes::Load(body.second_share) * turned_shear -
+                             Lanes::Load(body.second_moment) * moment);
+    half_dw = half_dw - ((own * e + next * e_next) + previous * Previous(e));
 
     result.iterations = i;
-    result.correction = 2.0 * LargestOfBody(MaxAbs(own + others));
+    result.correction = 2.0 * LargestEntry(own, next, previous);
     const double rate = LargestOfBody(MaxAbs(mean_w));
+    const double impulse =
+        LargestOfBody(Max(Abs(stretch_impulse), Abs(shear_impulse)));
+    // (LANE-3)
+    const double size = result.correction;
+    const double turn = LargestOfBody(Max(Abs(forth), Abs(back)));
+    const double metric =
+        2.0 * (turn * turn +
+               LargestOfBody(Max(Max(Abs(mean_stretch), Abs(half_stretch)),
+                                 Abs(mean_shear))));
+    const double stiffening = body.stiffening * impulse;
+    const double quadratic = body.second_order * size;
+    const double slowness = 16.0 * turn * turn + 6.0 * metric + stiffening;
+    // Only of a sequence that contracts the last member says what follows.
+    constexpr double kSlow = 0.5;
+    constexpr int kUsual = 2;
+    if (i >= kUsual && !(slowness <= kSlow)) return result;
     bool done = false;
-    if (body.options.tolerance.has_value()) {
-      done = result.correction <= *body.options.tolerance * rate;
-    } else {
+    const bool contracts = slowness + quadratic <= kSlow;
+    if (contracts && body.options.tolerance.has_value()) {
+      done = size <= *body.options.tolerance * rate;
+    } else if (contracts) {
       const double strain_floor =
           4.0 * kUnitRoundoff * rate;  // AncfBodyStep's.
-      const bool strain_done =
-          strain_monitor.Update(result.correction, strain_floor);
-      constexpr double kNear = 1e4;
-      if (result.correction <= kNear * strain_floor) {
-        const double deformation =
-            LargestOfBody(Max(Abs(mean_stretch), Abs(mean_shear)));
-        const double stress =
-            LargestOfBody(Max(Abs(stretch_stress), Abs(shear_stress)));
-        const double rotation_floor =
-            kUnitRoundoff * (2.0 * LargestOfBody(MaxAbs(half_dw)) +
-                             std::abs(dt) * stress / body.smallest_moment_sum);
+      const double rotation_floor =
+          kUnitRoundoff * (2.0 * LargestOfBody(MaxAbs(half_dw)) +
+                           impulse / body.smallest_moment_sum);
+      const double strain_left = (slowness + quadratic) * size;
+      const double rotation_left = (stiffening * (4.0 * turn + stiffening) +
+                                    4.0 * metric * metric + quadratic) *
+                                   size;
+      done = strain_left <= 0x1p-6 * strain_floor &&
+             rotation_left <= 0x1p-6 * rotation_floor;
+      if (!done && i > kUsual) {
+        // Where a step turns the body far, the bounds are too pessimistic.
+        const bool strain_done = strain_monitor.Update(size, strain_floor);
         const bool rotation_done = rotation_monitor.Update(
             LargestOfBody(Abs(turning)) / body.smallest_moment_sum,
             rotation_floor);
-        // (LANE-2) with ‖w̄‖² and ‖ε̄‖, from their largest entries.
-        const double turn = 1.5 * std::abs(dt) * rate;
-        const double strain_left = 2.0 * turn * result.correction;
-        const double rotation_left =
-            (turn * turn + 3.0 * deformation +
-             0.75 * dt * dt * stress / body.smallest_moment_sum) *
-            result.correction;
-        done = (strain_done || strain_left <= 0x1p-6 * strain_floor) &&
-               (rotation_done || rotation_left <= 0x1p-6 * rotation_floor);
+        done = strain_done && rotation_done;
       }
     }
     if (done) break;
@@ -131,15 +168,20 @@ BodyStepResult Solve(const AncfBodyLanes& body, const double* position,
     if (i >= std::min(kEnough, body.options.max_iterations)) return result;
   }
 
-  const VectorsAndError de = ScaledExactly(step, w0 + (w_low + half_dw));
+  // Δe = Δt w̄ as a pair. Rounded, w̄ lies on a lattice of its own, which the
+  // iteration has met already: what that drops need not be random.
+  const VectorsAndError mean_w = SumExactly(w0, w_low + half_dw);
+  VectorsAndError de = ScaledExactly(step, mean_w.value);
+  de.error = de.error + step * mean_w.error;
   const Vectors e = e0 + (e_low + Lanes::Set(0.5) * de.value);
   const auto [stretch, shear] = StrainIncrementsOf(e, de);
   const Vectors dw = half_dw + half_dw;
   StoreInterleaved(de.value.x, de.value.y, de.value.z, increment->gradients);
+  StoreInterleaved(de.error.x, de.error.y, de.error.z,
+                   increment->gradients_low);
   StoreInterleaved(dw.x, dw.y, dw.z, increment->rates);
-  // In this order: the lane that means nothing is overwritten.
-  shear.Store(increment->strain + 3);
-  stretch.Store(increment->strain);
+  stretch.Store(increment->stretch);
+  shear.Store(increment->shear);
   // What is not finite in one of them is not in the sum either.
   const Lanes sum = (dw.x + dw.y) + (dw.z + (stretch + shear));
   result.termination = LargestOfBody(Abs(sum - sum)) == 0.0
@@ -148,39 +190,44 @@ BodyStepResult Solve(const AncfBodyLanes& body, const double* position,
   return result;
 }
 
-void Commit(const AncfLanesIncrement& increment, double time_step,
-            const double* velocity_increment, double* position,
-            double* position_compensation, double* velocity,
-            double* velocity_compensation, double* strain,
-            double* strain_compensation, double* next,
-            double* const* differences) {
+HWY_INLINE void CommitBody(const AncfLanesIncrement& increment,
+                           double time_step,
+                           const CentreIncrement& centre_increment,
+                           const BodyNumbers& numbers) {
   const Lanes step = Lanes::Set(time_step);
+  double* const position = numbers.position;
+  double* const position_low = numbers.position_low;
+  double* const velocity = numbers.velocity;
+  double* const velocity_low = numbers.velocity_low;
+  double* const strain = numbers.strain;
+  double* const strain_low = numbers.strain_low;
   // The centre's, in the lanes before the first of e₁.
-  const Lanes centre = Lanes::Load(velocity_increment);
-  const Lanes mean_velocity =
-      Lanes::Load(velocity) +
-      (Lanes::Load(velocity_compensation) + Lanes::Set(0.5) * centre);
-  MoveCentre(Lanes::Load(increment.gradients), mean_velocity, step, position,
-             position_compensation);
+  const Lanes centre = Lanes::Load(centre_increment.value);
+  const LanesSum motion = CentreMotion(centre, velocity, velocity_low, step);
+  AddPairTo({SelectLast(motion.value, Lanes::Load(increment.gradients)),
+             SelectLast(motion.error, Lanes::Load(increment.gradients_low))},
+            position, position_low);
   AddTo(SelectLast(centre, Lanes::Load(increment.rates)), velocity,
-        velocity_compensation);
+        velocity_low);
   for (int i = 4; i < 12; i += 4) {
-    AddTo(Lanes::Load(increment.gradients + i), position + i,
-          position_compensation + i);
-    AddTo(Lanes::Load(increment.rates + i), velocity + i,
-          velocity_compensation + i);
+    AddPairTo({Lanes::Load(increment.gradients + i),
+               Lanes::Load(increment.gradients_low + i)},
+              position + i, position_low + i);
+    AddTo(Lanes::Load(increment.rates + i), velocity + i, velocity_low + i);
   }
-  // Six numbers: the middle two are added twice, to what they were before.
+  // Six numbers, the middle two in both vectors.
+  const Lanes stretch = Lanes::Load(increment.stretch);
+  const Lanes shear = Lanes::Load(increment.shear);
   const LanesSum low =
-      TwoSum(Lanes::Load(strain), Lanes::Load(increment.strain + 1) +
-                                      Lanes::Load(strain_compensation));
-  const LanesSum high =
-      TwoSum(Lanes::Load(strain + 2), Lanes::Load(increment.strain + 3) +
-                                          Lanes::Load(strain_compensation + 2));
-  low.value.Store(strain);
-  low.error.Store(strain_compensation);
-  high.value.Store(strain + 2);
-  high.error.Store(strain_compensation + 2);
+      TwoSum(Lanes::LoadPairs(strain),
+             SelectLast(FromSecond(stretch), FromSecond(FromSecond(shear))) +
+                 Lanes::LoadPairs(strain_low));
+  const LanesSum high = TwoSum(Lanes::LoadPairs(strain + 2),
+                               shear + Lanes::LoadPairs(strain_low + 2));
+  low.value.StorePairs(strain);
+  low.error.StorePairs(strain_low);
+  high.value.StoreLastPair(strain + 4);
+  high.error.StoreLastPair(strain_low + 4);
 
   Lanes accelerations[3];
   for (int i = 0; i < 3; ++i) {
@@ -188,7 +235,28 @@ void Commit(const AncfLanesIncrement& increment, double time_step,
         Lanes::Set(1.0 / time_step) * Lanes::Load(increment.rates + 4 * i);
   }
   accelerations[0] = SelectLast(Lanes::Set(0.0), accelerations[0]);
-  Extrapolate(accelerations, differences, next);
+  Extrapolate(accelerations, numbers.differences, numbers.next);
+}
+
+BodyStepResult Solve(const AncfBodyLanes& body, const BodyStartNumbers& start,
+                     AncfLanesIncrement* increment) {
+  return SolveBody(body, start, increment);
+}
+
+void Commit(const AncfLanesIncrement& increment, double time_step,
+            const CentreIncrement& centre, const BodyNumbers& numbers) {
+  CommitBody(increment, time_step, centre, numbers);
+}
+
+BodyStepResult Advance(const AncfBodyLanes& body, const BodyStartNumbers& start,
+                       const CentreIncrement& centre,
+                       const BodyNumbers& numbers) {
+  AncfLanesIncrement increment;
+  const BodyStepResult result = SolveBody(body, start, &increment);
+  if (result.termination == Termination::kConverged) {
+    CommitBody(increment, body.time_step, centre, numbers);
+  }
+  return result;
 }
 
 }  // namespace HWY_NAMESPACE
@@ -200,6 +268,7 @@ namespace emmy {
 
 HWY_EXPORT(Solve);
 HWY_EXPORT(Commit);
+HWY_EXPORT(Advance);
 
 bool AncfBodyLanes::Fits(const AncfRigidBody& body) {
   const Matrix3d& moment = body.second_moment();
@@ -211,65 +280,69 @@ AncfBodyLanes::AncfBodyLanes(const AncfRigidBody& body, double step,
                              const NewtonOptions& newton)
     : time_step(step), options(newton) {
   const Vector3d moments = body.second_moment().diagonal();
+  const Vector6d& b = body.penalty_stiffness();
   smallest_moment_sum = moments.sum() - moments.maxCoeff();
   const double quarter = 0.25 * step * step;
+  double largest_inverse = 0.0;
   for (int i = 0; i < 3; ++i) {
     const auto [m, n] = AncfRigidBody::kShearPairs[static_cast<size_t>(i)];
-    const double b = body.penalty_stiffness()(i);
-    const double c = quarter * body.penalty_stiffness()(3 + i);
-    const int next = 1 + (i + 1) % 3;
-    twice_moment[1 + i] = 2.0 * moments(i);
-    stretch[1 + i] = b;
-    shear[1 + i] = body.penalty_stiffness()(3 + i);
-    half_inverse[1 + i] = 0.5 / (moments(i) + quarter * b);
+    const double c = quarter * b(3 + i);
+    const int pair = 1 + i;
+    const int second = 1 + (i + 1) % 3;
+    twice_moment[pair] = 2.0 * moments(i);
+    stretch[pair] = step * b(i);
+    shear[pair] = step * b(3 + i);
+    quarter_step[pair] = 0.25 * step;
+    half_inverse[pair] = 0.5 / (moments(i) + quarter * b(i));
+    stretch_share[pair] = quarter * b(i) / (moments(i) + quarter * b(i));
     // The determinant without the cancellation of c² − c².
     const double determinant =
         moments(m) * moments(n) + c * (moments(m) + moments(n));
-    half_first[1 + i] = 0.5 * moments(n) / determinant;
-    half_second[next] = 0.5 * moments(m) / determinant;
-    half_shear[1 + i] = 0.5 * c / determinant;
-    half_shear_previous[next] = half_shear[1 + i];
+    half_first[pair] = 0.5 * moments(n) / determinant;
+    half_second[second] = 0.5 * moments(m) / determinant;
+    half_shear[pair] = 0.5 * c / determinant;
+    half_shear_previous[second] = half_shear[pair];
+    first_share[pair] = c * moments(n) / determinant;
+    second_share[pair] = c * moments(m) / determinant;
+    first_moment[pair] = (0.5 * moments(n) + c) / determinant;
+    second_moment[pair] = (0.5 * moments(m) + c) / determinant;
+    largest_inverse =
+        std::max({largest_inverse, 2.0 * half_inverse[pair],
+                  (std::max(moments(m), moments(n)) + 2.0 * c) / determinant});
   }
+  stiffening = 1.5 * std::abs(step) * largest_inverse;
+  second_order =
+      std::abs(step) *
+      (1.0 + 2.0 * largest_inverse *
+                 (moments.maxCoeff() + 3.0 * quarter * b.maxCoeff()));
 }
 
 void AncfLanesIncrement::Set(const AncfBodyIncrement& increment) {
   std::copy_n(increment.gradients.data(), 9, gradients + 3);
+  std::fill_n(gradients_low, 12, 0.0);
   std::copy_n(increment.rates.data(), 9, rates + 3);
-  std::copy_n(increment.strain.data(), 6, strain + 1);
+  std::copy_n(increment.strain.data(), 3, stretch + 1);
+  std::copy_n(increment.strain.data() + 3, 3, shear + 1);
 }
 
 BodyStepResult SolveInLanes(const AncfBodyLanes& lanes, const ModelBody& body,
                             const State& state, AncfLanesIncrement* increment) {
-  const Eigen::Index q = body.position_offset;
-  const Eigen::Index w = body.velocity_offset;
-  const Eigen::Index s = body.strain_offset;
-  return HWY_DYNAMIC_DISPATCH(Solve)(
-      lanes, state.position.value.data() + q,
-      state.position.compensation.data() + q, state.velocity.value.data() + w,
-      state.velocity.compensation.data() + w, state.strain.value.data() + s,
-      state.strain.compensation.data() + s, state.acceleration.next.data() + w,
-      increment);
+  return HWY_DYNAMIC_DISPATCH(Solve)(lanes, BodyStartNumbers(body, state),
+                                     increment);
 }
 
 void CommitInLanes(const AncfLanesIncrement& increment, double time_step,
-                   const Vector3d& gravity, const ModelBody& body,
+                   const CentreIncrement& centre, const ModelBody& body,
                    State& state) {
-  const Eigen::Index q = body.position_offset;
-  const Eigen::Index w = body.velocity_offset;
-  const Eigen::Index s = body.strain_offset;
-  const double velocity_increment[4] = {time_step * gravity(0),
-                                        time_step * gravity(1),
-                                        time_step * gravity(2), 0.0};
-  double* differences[Extrapolation::kOrders];
-  for (int j = 0; j < Extrapolation::kOrders; ++j) {
-    differences[j] = &state.acceleration.differences(w, j);
-  }
   HWY_DYNAMIC_DISPATCH(Commit)
-  (increment, time_step, velocity_increment, state.position.value.data() + q,
-   state.position.compensation.data() + q, state.velocity.value.data() + w,
-   state.velocity.compensation.data() + w, state.strain.value.data() + s,
-   state.strain.compensation.data() + s, state.acceleration.next.data() + w,
-   differences);
+  (increment, time_step, centre, BodyNumbers(body, state));
+}
+
+BodyStepResult AdvanceInLanes(const AncfBodyLanes& lanes,
+                              const CentreIncrement& centre,
+                              const ModelBody& body, State& state) {
+  return HWY_DYNAMIC_DISPATCH(Advance)(lanes, BodyStartNumbers(body, state),
+                                       centre, BodyNumbers(body, state));
 }
 
 }  // namespace emmy

@@ -20,21 +20,16 @@ HWY_BEFORE_NAMESPACE();
 namespace emmy {
 namespace HWY_NAMESPACE {
 
-// The first three numbers are the centre's, which `velocity` moves for a step;
-// to the last one, `increment` is added. With the product's rounding error: a
-// free body's velocity is the same in every step, and so would be that of the
-// product, which then drifts.
-HWY_INLINE void MoveCentre(const Lanes& increment, const Lanes& velocity,
-                           const Lanes& step, double* value,
-                           double* compensation) {
-  const LanesSum product = TwoProduct(step, velocity);
-  const LanesSum first =
-      TwoSum(Lanes::Load(value), SelectLast(product.value, increment));
-  const LanesSum second = TwoSum(
-      first.value, first.error + (Lanes::Load(compensation) +
-                                  SelectLast(product.error, Lanes::Set(0.0))));
-  second.value.Store(value);
-  second.error.Store(compensation);
+// Δx̄ as a pair, of the centre's three numbers and one that means nothing. A
+// free body's velocity is the same in every step, and so would be the rounding
+// of the product, which then drifts.
+HWY_INLINE LanesSum CentreMotion(const Lanes& velocity_increment,
+                                 const double* velocity,
+                                 const double* compensation,
+                                 const Lanes& step) {
+  return TwoProduct(
+      step, Lanes::Load(velocity) + (Lanes::Load(compensation) +
+                                     Lanes::Set(0.5) * velocity_increment));
 }
 
 // Extrapolation::Add and Predict (EXTRA-1) for the accelerations of a step,

@@ -60,24 +60,28 @@ HWY_INLINE Lanes CayleyIncrement(const Lanes& q, const Lanes& theta) {
           Lanes::Set(quarter_square / (n * (1.0 + n))) * q);
 }
 
-// `quaternion` to `acceleration` point at the body's four numbers: those of
-// vectors have one in front that belongs to something else.
-BodyStepResult SolveConventional(const ConventionalBodyLanes& body,
-                                 const double* quaternion,
-                                 const double* angular_velocity,
-                                 const double* angular_velocity_low,
-                                 const double* acceleration,
-                                 ConventionalLanesIncrement* increment) {
+// The angular velocity has three numbers; the one in front is the centre's.
+constexpr int kQuaternion = 3;
+constexpr int kRate = 2;
+
+// What the first lane holds is not meaningful but of the quaternion.
+struct Increment {
+  Lanes quaternion, rates, rates_low;
+};
+
+HWY_INLINE BodyStepResult SolveBody(const ConventionalBodyLanes& body,
+                                    const BodyStartNumbers& start,
+                                    Increment* increment) {
   constexpr double kUnitRoundoff = std::numeric_limits<double>::epsilon() / 2.0;
   const Lanes step = Lanes::Set(body.time_step);
   const Lanes half = Lanes::Set(0.5);
-  const Lanes w0 = Lanes::Load(angular_velocity);
-  const Lanes w_low = Lanes::Load(angular_velocity_low);
+  const Lanes w0 = Lanes::Load(start.velocity + kRate);
+  const Lanes w_low = Lanes::Load(start.velocity_low + kRate);
   const Lanes gyration = Lanes::Load(body.gyration);
   const Lanes half_gyration = Lanes::Load(body.half_gyration);
   const Lanes moment = Lanes::Load(body.moment);
   BodyStepResult result;
-  Lanes dw = step * Lanes::Load(acceleration);
+  Lanes dw = step * Lanes::Load(start.next + kRate);
   Lanes low = Lanes::Set(0.0);
   for (int i = 1;; ++i) {
     // W̄ as a pair.
@@ -127,10 +131,9 @@ BodyStepResult SolveConventional(const ConventionalBodyLanes& body,
   }
 
   const Lanes theta = step * (w0 + (w_low + half * dw));
-  const Lanes change = CayleyIncrement(Lanes::Load(quaternion), theta);
-  change.Store(increment->quaternion);
-  dw.Store(increment->angular_velocity);
-  low.Store(increment->angular_velocity_low);
+  const Lanes change =
+      CayleyIncrement(Lanes::Load(start.position + kQuaternion), theta);
+  *increment = {change, dw, low};
   // What is not finite in one of them is not in the sum either.
   const Lanes sum = change + theta;
   result.termination = Largest(Abs(change - change)) == 0.0 &&
@@ -140,41 +143,78 @@ BodyStepResult SolveConventional(const ConventionalBodyLanes& body,
   return result;
 }
 
-void CommitConventional(const ConventionalLanesIncrement& increment,
-                        double time_step, const double* velocity_increment,
-                        double* position, double* position_compensation,
-                        double* velocity, double* velocity_compensation,
-                        double* next, double* const* differences) {
-  // The four numbers of the vector part begin with one of the centre.
-  constexpr int kQuaternion = 3;
-  constexpr int kRate = 2;
-  const Lanes none = Lanes::Set(0.0);
-  const Lanes centre = Lanes::Load(velocity_increment);
-  const Lanes mean_velocity =
-      Lanes::Load(velocity) +
-      (Lanes::Load(velocity_compensation) + Lanes::Set(0.5) * centre);
+HWY_INLINE void CommitBody(const Increment& increment, double time_step,
+                           const CentreIncrement& centre_increment,
+                           const BodyNumbers& numbers) {
+  double* const position = numbers.position;
+  double* const position_low = numbers.position_low;
+  double* const velocity = numbers.velocity;
+  double* const velocity_low = numbers.velocity_low;
+  const Lanes centre = Lanes::Load(centre_increment.value);
+  const LanesSum motion =
+      CentreMotion(centre, velocity, velocity_low, Lanes::Set(time_step));
   const LanesSum quaternion =
       TwoSum(Lanes::Load(position + kQuaternion),
-             Lanes::Load(increment.quaternion) +
-                 Lanes::Load(position_compensation + kQuaternion));
-  // Its last number is the quaternion's first, which is written after it.
-  MoveCentre(none, mean_velocity, Lanes::Set(time_step), position,
-             position_compensation);
-  quaternion.value.Store(position + kQuaternion);
-  quaternion.error.Store(position_compensation + kQuaternion);
-
-  AddTo(centre, velocity, velocity_compensation);
-  const Lanes rates = WithoutFirst(Lanes::Load(increment.angular_velocity));
-  const Lanes low = WithoutFirst(Lanes::Load(increment.angular_velocity_low));
+             increment.quaternion + Lanes::Load(position_low + kQuaternion));
+  const LanesSum centre_velocity =
+      TwoSum(Lanes::Load(velocity), centre + Lanes::Load(velocity_low));
+  const Lanes rates = WithoutFirst(increment.rates);
+  const Lanes low = WithoutFirst(increment.rates_low);
   const LanesSum first = TwoSum(Lanes::Load(velocity + kRate), rates);
-  const LanesSum second =
-      TwoSum(first.value,
-             first.error + (Lanes::Load(velocity_compensation + kRate) + low));
-  second.value.Store(velocity + kRate);
-  second.error.Store(velocity_compensation + kRate);
+  const LanesSum second = TwoSum(
+      first.value, first.error + (Lanes::Load(velocity_low + kRate) + low));
+
+  // All has been read before the first is written: what lies across the end of
+  // a vector that was just written has to wait until that is in the cache.
+  AddPairTo(motion, position, position_low);
+  quaternion.value.Store(position + kQuaternion);
+  quaternion.error.Store(position_low + kQuaternion);
+  centre_velocity.value.Store(velocity);
+  centre_velocity.error.Store(velocity_low);
+  SelectFirst(Broadcast<kRate>(centre_velocity.value), second.value)
+      .Store(velocity + kRate);
+  SelectFirst(Broadcast<kRate>(centre_velocity.error), second.error)
+      .Store(velocity_low + kRate);
 
   const Lanes accelerations[1] = {Lanes::Set(1.0 / time_step) * rates};
-  Extrapolate(accelerations, differences, next);
+  double* differences[Extrapolation::kOrders];
+  for (int j = 0; j < Extrapolation::kOrders; ++j) {
+    differences[j] = numbers.differences[j] + kRate;
+  }
+  Extrapolate(accelerations, differences, numbers.next + kRate);
+}
+
+BodyStepResult SolveConventional(const ConventionalBodyLanes& body,
+                                 const BodyStartNumbers& start,
+                                 ConventionalLanesIncrement* increment) {
+  Increment lanes = {Lanes::Set(0.0), Lanes::Set(0.0), Lanes::Set(0.0)};
+  const BodyStepResult result = SolveBody(body, start, &lanes);
+  lanes.quaternion.Store(increment->quaternion);
+  lanes.rates.Store(increment->angular_velocity);
+  lanes.rates_low.Store(increment->angular_velocity_low);
+  return result;
+}
+
+void CommitConventional(const ConventionalLanesIncrement& increment,
+                        double time_step,
+                        const CentreIncrement& centre_increment,
+                        const BodyNumbers& numbers) {
+  CommitBody({Lanes::Load(increment.quaternion),
+              Lanes::Load(increment.angular_velocity),
+              Lanes::Load(increment.angular_velocity_low)},
+             time_step, centre_increment, numbers);
+}
+
+BodyStepResult AdvanceConventional(const ConventionalBodyLanes& body,
+                                   const BodyStartNumbers& start,
+                                   const CentreIncrement& centre,
+                                   const BodyNumbers& numbers) {
+  Increment increment = {Lanes::Set(0.0), Lanes::Set(0.0), Lanes::Set(0.0)};
+  const BodyStepResult result = SolveBody(body, start, &increment);
+  if (result.termination == Termination::kConverged) {
+    CommitBody(increment, body.time_step, centre, numbers);
+  }
+  return result;
 }
 
 }  // namespace HWY_NAMESPACE
@@ -186,6 +226,7 @@ namespace emmy {
 
 HWY_EXPORT(SolveConventional);
 HWY_EXPORT(CommitConventional);
+HWY_EXPORT(AdvanceConventional);
 
 bool ConventionalBodyLanes::Fits(const ConventionalRigidBody& body) {
   const Matrix3d diagonal = body.tensor().diagonal().asDiagonal();
@@ -222,31 +263,22 @@ void ConventionalLanesIncrement::Set(
 BodyStepResult SolveInLanes(const ConventionalBodyLanes& lanes,
                             const ModelBody& body, const State& state,
                             ConventionalLanesIncrement* increment) {
-  const Eigen::Index q = body.position_offset + 3;
-  const Eigen::Index w = body.velocity_offset + 2;
   return HWY_DYNAMIC_DISPATCH(SolveConventional)(
-      lanes, state.position.value.data() + q, state.velocity.value.data() + w,
-      state.velocity.compensation.data() + w,
-      state.acceleration.next.data() + w, increment);
+      lanes, BodyStartNumbers(body, state), increment);
 }
 
 void CommitInLanes(const ConventionalLanesIncrement& increment,
-                   double time_step, const Vector3d& gravity,
+                   double time_step, const CentreIncrement& centre,
                    const ModelBody& body, State& state) {
-  const Eigen::Index q = body.position_offset;
-  const Eigen::Index w = body.velocity_offset;
-  const double velocity_increment[4] = {time_step * gravity(0),
-                                        time_step * gravity(1),
-                                        time_step * gravity(2), 0.0};
-  double* differences[Extrapolation::kOrders];
-  for (int j = 0; j < Extrapolation::kOrders; ++j) {
-    differences[j] = &state.acceleration.differences(w + 2, j);
-  }
   HWY_DYNAMIC_DISPATCH(CommitConventional)
-  (increment, time_step, velocity_increment, state.position.value.data() + q,
-   state.position.compensation.data() + q, state.velocity.value.data() + w,
-   state.velocity.compensation.data() + w,
-   state.acceleration.next.data() + w + 2, differences);
+  (increment, time_step, centre, BodyNumbers(body, state));
+}
+
+BodyStepResult AdvanceInLanes(const ConventionalBodyLanes& lanes,
+                              const CentreIncrement& centre,
+                              const ModelBody& body, State& state) {
+  return HWY_DYNAMIC_DISPATCH(AdvanceConventional)(
+      lanes, BodyStartNumbers(body, state), centre, BodyNumbers(body, state));
 }
 
 }  // namespace emmy

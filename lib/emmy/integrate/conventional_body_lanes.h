@@ -19,6 +19,7 @@
 #include "emmy/base/types.h"
 #include "emmy/element/conventional_rigid_body.h"
 #include "emmy/integrate/ancf_body_step.h"
+#include "emmy/integrate/body_numbers.h"
 #include "emmy/integrate/conventional_body_step.h"
 #include "emmy/model/model.h"
 #include "emmy/model/state.h"
@@ -65,8 +66,13 @@ BodyStepResult SolveInLanes(const ConventionalBodyLanes& lanes,
 // value. Its centre of mass, which a constant force moves, is solved in closed
 // form.
 void CommitInLanes(const ConventionalLanesIncrement& increment,
-                   double time_step, const Vector3d& gravity,
+                   double time_step, const CentreIncrement& centre,
                    const ModelBody& body, State& state);
+
+// Both at once; `state` is not changed unless the result is kConverged.
+BodyStepResult AdvanceInLanes(const ConventionalBodyLanes& lanes,
+                              const CentreIncrement& centre,
+                              const ModelBody& body, State& state);
 
 }  // namespace emmy
 

@@ -119,29 +119,30 @@ absl::Status EnergyMomentumIntegrator::Restore(
       "the factorisations that were kept are not those of this model");
 }
 
+bool EnergyMomentumIntegrator::Compose(State& state, StepReport* report) {
+  start_ = state;
+  for (size_t i = 0; i < sequence_.size(); ++i) {
+    StepReport part;
+    const bool solved = steps_[sequence_[i]].Advance(state, &part);
+    report->iterations += part.iterations;
+    report->correction = std::max(report->correction, part.correction);
+    if (solved) continue;
+    report->termination = part.termination;
+    report->message = absl::StrCat("part ", i + 1, " of ", sequence_.size(),
+                                   " of ", part.message);
+    state = start_;
+    return false;
+  }
+  return true;
+}
+
 StepReport EnergyMomentumIntegrator::Step(State& state) {
   StepReport report;
-  // Not needed where the only sub-step leaves the state when it fails.
-  const bool composed = sequence_.size() > 1;
-  if (composed) start_ = state;
-  for (size_t i = 0; i < sequence_.size(); ++i) {
-    ModelStep& step = steps_[sequence_[i]];
-    StepReport sub_report;
-    const bool solved = step.Solve(state, &sub_report);
-    report.iterations += sub_report.iterations;
-    report.correction = std::max(report.correction, sub_report.correction);
-    if (!solved) {
-      report.termination = sub_report.termination;
-      report.message = std::move(sub_report.message);
-      if (composed) {
-        report.message = absl::StrCat("part ", i + 1, " of ", sequence_.size(),
-                                      " of ", report.message);
-        state = start_;
-      }
-      return report;
-    }
-    step.Commit(state);
-  }
+  // A step that is not composed leaves the state by itself when it fails.
+  const bool solved = sequence_.size() == 1
+                          ? steps_.front().Advance(state, &report)
+                          : Compose(state, &report);
+  if (!solved) return report;
   ++state.step;
   state.time.Add(options_.time_step);
   report.termination = Termination::kConverged;

@@ -82,6 +82,7 @@ class EMMY_EXPORT EnergyMomentumIntegrator {
   EnergyMomentumIntegrator(const Model& model,
                            const IntegratorOptions& options);
   absl::Status MakeSteps(const Model& model);
+  bool Compose(State& state, StepReport* report);
 
   IntegratorOptions options_;
   // Behind a pointer, since the steps refer to them.

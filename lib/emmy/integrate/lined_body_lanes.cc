@@ -40,7 +40,7 @@ struct LinedBodyLanes::Constants {
   // Δt times gravity's force, a row a component.
   alignas(32) std::array<Four, 3> body_impulse{};
   alignas(32) std::array<Four, 3> node_impulse{};
-  // B of (LANE-3): of each input (component k, vector v) the outputs of three
+  // B of (LANE-4): of each input (component k, vector v) the outputs of three
   // components, on the body's vectors and on the nodes.
   struct Outputs {
     alignas(32) std::array<Four, 3> body{};
@@ -174,7 +174,7 @@ struct Pair {
   Vectors body, node;
 };
 
-// B y, (LANE-3).
+// B y, (LANE-4).
 HWY_INLINE Pair ApplyInverse(const Constants& constants, const Pair& y) {
   alignas(32) double in[3][8];
   y.body.x.Store(in[0]);
@@ -200,7 +200,7 @@ HWY_INLINE Pair ApplyInverse(const Constants& constants, const Pair& y) {
   return {even.body + odd.body, even.node + odd.node};
 }
 
-// What the lines add to the tangent at one point: (LANE-4).
+// What the lines add to the tangent at one point: (LANE-5).
 struct LineTangent {
   Vectors along;         // ēᵏ·d̄, over the lines.
   Lanes c;               // ½ Δt² t'
@@ -264,8 +264,8 @@ BodyStepResult SolveLined(const Constants& constants, const BodyState& body,
   const Vectors node_w_low = At(nodes.rate_low);
   const Vectors x0 = At(nodes.position);
   const Vectors x_low = At(nodes.position_low);
-  const Lanes stretch0 = LoadFromSecond(body.strain);
-  const Lanes stretch_low = LoadFromSecond(body.strain_low);
+  const Lanes stretch0 = FromLast(Lanes::Load(body.strain));
+  const Lanes stretch_low = FromLast(Lanes::Load(body.strain_low));
   // The first lane holds what is above and below; both are multiplied by zero.
   const Lanes shear0 = Lanes::Load(body.strain + 2);
   const Lanes shear_low = Lanes::Load(body.strain_low + 2);
@@ -596,7 +596,7 @@ LinedBodyLanes::LinedBodyLanes(const Structure& structure, double time_step,
       }
     }
   }
-  // (LANE-3), unknown (k, v) at k n + v.
+  // (LANE-4), unknown (k, v) at k n + v.
   MatrixXd tangent = MatrixXd::Zero(3 * n, 3 * n);
   for (Eigen::Index k = 0; k < 3; ++k) {
     tangent.block(k * n, k * n, n, n) = mass;

@@ -6,10 +6,10 @@
 // centre of mass before the three vectors, and four more for the nodes and
 // lines. Along the mean dual vectors ēᵏ the tangent without lines is one
 // constant,
-//   K₀ = M ⊗ 1 + ¼ Δt² Σ b g gᵀ,  B = K₀⁻¹,                         (LANE-3)
+//   K₀ = M ⊗ 1 + ¼ Δt² Σ b g gᵀ,  B = K₀⁻¹,                         (LANE-4)
 // computed once, and a line adds c ĝ ĝᵀ, c = ½ Δt² t', ĝ = a ⊗ (ēᵏ·d̄) for its
 // weights a, which the identity of Woodbury solves with one number a line:
-//   x = z − Σ h μ,  z = B y,  h = B ĝ,  (c⁻¹ + ĝᵀ h) μ = ĝᵀ z         (LANE-4)
+//   x = z − Σ h μ,  z = B y,  h = B ĝ,  (c⁻¹ + ĝᵀ h) μ = ĝᵀ z         (LANE-5)
 // The tension's own stiffness is left out, so that a line whose tension moves
 // its node far in a step is not solved; CoupledStep does that.
 

@@ -80,8 +80,8 @@ ModelStep::ModelStep(
     const Model& model, const std::vector<Structure>& structures,
     double time_step, const ModelStepOptions& options,
     std::optional<ConventionalStructureStep> conventional_structure)
-    : model_(&model),
-      time_step_(time_step),
+    : time_step_(time_step),
+      centre_(time_step, model.gravity()),
       conventional_structure_(std::move(conventional_structure)) {
   const NewtonOptions& newton = options.newton;
   const AncfBodyStep::Tangent tangent = options.always_full_newton
@@ -132,6 +132,9 @@ ModelStep::ModelStep(
     }
     free_conventional_.push_back(part);
   }
+  has_one_free_body_ = free_ancf_.size() + free_conventional_.size() == 1 &&
+                       joined_.empty() && coupled_.empty() &&
+                       !conventional_structure_.has_value();
 }
 
 int ModelStep::num_factorizations() const {
@@ -158,23 +161,32 @@ bool ModelStep::Accept(const BodyStepResult& result, const State& state,
   return false;
 }
 
+// After `iterations` that have led nowhere.
+template <typename Part>
+ABSL_ATTRIBUTE_NOINLINE bool ModelStep::SolveFreeInGeneral(
+    const State& state, int iterations, Part& part, StepReport* report) const {
+  BodyStepResult result =
+      SolveInGeneral(part.step, *part.body, state, time_step_, &part.increment);
+  result.iterations += iterations;
+  const auto name = [&part] {
+    return absl::StrCat("body \"", part.body->name, "\"");
+  };
+  return Accept(result, state, name, report);
+}
+
 template <typename Part>
 bool ModelStep::SolveFree(const State& state, Part& part,
                           StepReport* report) const {
   BodyStepResult result;
   if (part.lanes.has_value()) {
     result = SolveInLanes(*part.lanes, *part.body, state, &part.increment);
+    if (result.termination == Termination::kConverged) {
+      report->iterations = std::max(report->iterations, result.iterations);
+      report->correction = std::max(report->correction, result.correction);
+      return true;
+    }
   }
-  if (result.termination != Termination::kConverged) {
-    const int iterations = result.iterations;
-    result = SolveInGeneral(part.step, *part.body, state, time_step_,
-                            &part.increment);
-    result.iterations += iterations;
-  }
-  const auto name = [&part] {
-    return absl::StrCat("body \"", part.body->name, "\"");
-  };
-  return Accept(result, state, name, report);
+  return SolveFreeInGeneral(state, result.iterations, part, report);
 }
 
 bool ModelStep::Solve(const State& state, StepReport* report) {
@@ -203,18 +215,48 @@ bool ModelStep::Solve(const State& state, StepReport* report) {
 }
 
 void ModelStep::Commit(State& state) {
-  const double dt = time_step_;
   for (const FreeAncf& part : free_ancf_) {
-    CommitInLanes(part.increment, dt, model_->gravity(), *part.body, state);
+    CommitInLanes(part.increment, time_step_, centre_, *part.body, state);
   }
   for (const FreeConventional& part : free_conventional_) {
-    CommitInLanes(part.increment, dt, model_->gravity(), *part.body, state);
+    CommitInLanes(part.increment, time_step_, centre_, *part.body, state);
   }
   for (const auto& part : joined_) part->Commit(state);
   for (const CoupledStep& part : coupled_) part.Commit(state);
   if (conventional_structure_.has_value()) {
     conventional_structure_->Commit(state);
   }
+}
+
+ABSL_ATTRIBUTE_NOINLINE bool ModelStep::SolveAndCommit(State& state,
+                                                       StepReport* report) {
+  if (!Solve(state, report)) return false;
+  Commit(state);
+  return true;
+}
+
+template <typename Part>
+bool ModelStep::AdvanceOnly(Part& part, State& state,
+                            StepReport* report) const {
+  BodyStepResult result;
+  if (part.lanes.has_value()) {
+    result = AdvanceInLanes(*part.lanes, centre_, *part.body, state);
+    if (result.termination == Termination::kConverged) {
+      report->iterations = result.iterations;
+      report->correction = result.correction;
+      return true;
+    }
+  }
+  if (!SolveFreeInGeneral(state, result.iterations, part, report)) return false;
+  CommitInLanes(part.increment, time_step_, centre_, *part.body, state);
+  return true;
+}
+
+bool ModelStep::Advance(State& state, StepReport* report) {
+  if (!has_one_free_body_) return SolveAndCommit(state, report);
+  return free_ancf_.empty()
+             ? AdvanceOnly(free_conventional_.front(), state, report)
+             : AdvanceOnly(free_ancf_.front(), state, report);
 }
 
 }  // namespace emmy

@@ -54,6 +54,10 @@ class ModelStep {
   // Advances `state` by the last solution, except its time and step number.
   void Commit(State& state);
 
+  // Both at once; if it returns false, `state` is not changed. A model of one
+  // free body spares itself the way through the increments.
+  bool Advance(State& state, StepReport* report);
+
   // What each structure's step keeps from step to step.
   const std::vector<CoupledStep>& coupled() const { return coupled_; }
   std::vector<CoupledStep>& coupled() { return coupled_; }
@@ -87,14 +91,21 @@ class ModelStep {
               const Name& name, StepReport* report) const;
   template <typename Part>
   bool SolveFree(const State& state, Part& part, StepReport* report) const;
+  template <typename Part>
+  bool SolveFreeInGeneral(const State& state, int iterations, Part& part,
+                          StepReport* report) const;
+  template <typename Part>
+  bool AdvanceOnly(Part& part, State& state, StepReport* report) const;
+  bool SolveAndCommit(State& state, StepReport* report);
 
-  const Model* model_;
   double time_step_;
+  CentreIncrement centre_;
   std::vector<FreeAncf> free_ancf_;
   std::vector<FreeConventional> free_conventional_;
   std::vector<std::unique_ptr<JointStep>> joined_;
   std::vector<CoupledStep> coupled_;
   std::optional<ConventionalStructureStep> conventional_structure_;
+  bool has_one_free_body_ = false;
 };
 
 }  // namespace emmy

@@ -44,6 +44,16 @@ HWY_INLINE void AddTo(const Lanes& increment, double* value,
   sum.error.Store(compensation);
 }
 
+// Of a pair, which is not rounded before it is added.
+HWY_INLINE void AddPairTo(const LanesSum& increment, double* value,
+                          double* compensation) {
+  const LanesSum first = TwoSum(Lanes::Load(value), increment.value);
+  const LanesSum second = TwoSum(
+      first.value, first.error + (Lanes::Load(compensation) + increment.error));
+  second.value.Store(value);
+  second.error.Store(compensation);
+}
+
 }  // namespace HWY_NAMESPACE
 }  // namespace emmy
 HWY_AFTER_NAMESPACE();

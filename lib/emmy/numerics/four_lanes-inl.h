@@ -6,10 +6,12 @@
 //   Next (a, 1, 2, 3) = (a, 2, 3, 1),  Previous (a, 1, 2, 3) = (a, 3, 1, 2),
 // so that a sum over the cyclic pairs of three vectors is one of lanes.
 // Broadcast<i> puts lane i into all, SwapInPairs gives (1, 0, 3, 2), SwapPairs
-// (2, 3, 0, 1). WithoutFirst puts zero into the first lane, SelectLast takes
-// the last lane from its second argument, LoadFromSecond puts three numbers
-// into the last three lanes (and reads a fourth), LoadInterleaved reads x₀ y₀
-// z₀ x₁ … z₃.
+// (2, 3, 0, 1). WithoutFirst puts zero into the first lane, SelectFirst takes
+// that lane from its first argument, SelectLast the last from its second,
+// FromSecond gives (1, 2, 3, 0) and FromLast (3, 0, 1, 2), LoadInterleaved
+// reads x₀ y₀ z₀ x₁ … z₃. LoadPairs and StorePairs take two numbers at a time,
+// StoreLastPair the last two alone: what two vectors have written cannot be
+// read as one before both are in the cache.
 //
 // No operation is fused with another: the bits are those of plain arithmetic.
 
@@ -43,6 +45,12 @@ struct Lanes {
   static Lanes Load(const double* p) { return {{p[0], p[1], p[2], p[3]}}; }
   void Store(double* p) const {
     for (int i = 0; i < 4; ++i) p[i] = v[i];
+  }
+  static Lanes LoadPairs(const double* p) { return Load(p); }
+  void StorePairs(double* p) const { Store(p); }
+  void StoreLastPair(double* p) const {
+    p[0] = v[2];
+    p[1] = v[3];
   }
 };
 
@@ -88,11 +96,17 @@ inline Lanes SwapPairs(const Lanes& a) {
 inline Lanes WithoutFirst(const Lanes& a) {
   return {{0.0, a.v[1], a.v[2], a.v[3]}};
 }
+inline Lanes SelectFirst(const Lanes& first, const Lanes& others) {
+  return {{first.v[0], others.v[1], others.v[2], others.v[3]}};
+}
 inline Lanes SelectLast(const Lanes& others, const Lanes& last) {
   return {{others.v[0], others.v[1], others.v[2], last.v[3]}};
 }
-inline Lanes LoadFromSecond(const double* p) {
-  return {{p[3], p[0], p[1], p[2]}};
+inline Lanes FromSecond(const Lanes& a) {
+  return {{a.v[1], a.v[2], a.v[3], a.v[0]}};
+}
+inline Lanes FromLast(const Lanes& a) {
+  return {{a.v[3], a.v[0], a.v[1], a.v[2]}};
 }
 inline void LoadInterleaved(const double* p, Lanes* x, Lanes* y, Lanes* z) {
   for (int i = 0; i < 4; ++i) {
@@ -114,6 +128,7 @@ inline void StoreInterleaved(const Lanes& x, const Lanes& y, const Lanes& z,
 
 namespace hn = hwy::HWY_NAMESPACE;
 using FourTag = hn::FixedTag<double, 4>;
+using PairTag = hn::Half<FourTag>;
 
 struct Lanes {
   hn::Vec<FourTag> v;
@@ -130,6 +145,17 @@ struct Lanes {
     return {hn::LoadU(FourTag(), p)};
   }
   HWY_INLINE void Store(double* p) const { hn::StoreU(v, FourTag(), p); }
+  static HWY_INLINE Lanes LoadPairs(const double* p) {
+    return {hn::Combine(FourTag(), hn::LoadU(PairTag(), p + 2),
+                        hn::LoadU(PairTag(), p))};
+  }
+  HWY_INLINE void StorePairs(double* p) const {
+    hn::StoreU(hn::LowerHalf(PairTag(), v), PairTag(), p);
+    StoreLastPair(p + 2);
+  }
+  HWY_INLINE void StoreLastPair(double* p) const {
+    hn::StoreU(hn::UpperHalf(PairTag(), v), PairTag(), p);
+  }
 };
 
 // Lane i of the result is lane `from`[i].
@@ -179,12 +205,19 @@ HWY_INLINE Lanes MulSub(const Lanes& a, const Lanes& b, const Lanes& c) {
 HWY_INLINE Lanes WithoutFirst(const Lanes& a) {
   return {hn::IfThenZeroElse(hn::FirstN(FourTag(), 1), a.v)};
 }
+HWY_INLINE Lanes SelectFirst(const Lanes& first, const Lanes& others) {
+  return {hn::IfThenElse(hn::FirstN(FourTag(), 1), first.v, others.v)};
+}
 HWY_INLINE Lanes SelectLast(const Lanes& others, const Lanes& last) {
   return {hn::IfThenElse(hn::FirstN(FourTag(), 3), others.v, last.v)};
 }
-HWY_INLINE Lanes LoadFromSecond(const double* p) {
+HWY_INLINE Lanes FromSecond(const Lanes& a) {
+  static constexpr int64_t kFrom[4] = {1, 2, 3, 0};
+  return Permuted(a, kFrom);
+}
+HWY_INLINE Lanes FromLast(const Lanes& a) {
   static constexpr int64_t kFrom[4] = {3, 0, 1, 2};
-  return Permuted(Lanes::Load(p), kFrom);
+  return Permuted(a, kFrom);
 }
 HWY_INLINE void LoadInterleaved(const double* p, Lanes* x, Lanes* y, Lanes* z) {
   hn::LoadInterleaved3(FourTag(), p, x->v, y->v, z->v);
@@ -218,6 +251,11 @@ struct Lanes {
   HWY_INLINE void Store(double* p) const {
     hn::StoreU(low, TwoTag(), p);
     hn::StoreU(high, TwoTag(), p + 2);
+  }
+  static HWY_INLINE Lanes LoadPairs(const double* p) { return Load(p); }
+  HWY_INLINE void StorePairs(double* p) const { Store(p); }
+  HWY_INLINE void StoreLastPair(double* p) const {
+    hn::StoreU(high, TwoTag(), p);
   }
 };
 
@@ -262,12 +300,19 @@ HWY_INLINE Lanes MulSub(const Lanes& a, const Lanes& b, const Lanes& c) {
 HWY_INLINE Lanes WithoutFirst(const Lanes& a) {
   return {hn::IfThenZeroElse(hn::FirstN(TwoTag(), 1), a.low), a.high};
 }
+HWY_INLINE Lanes SelectFirst(const Lanes& first, const Lanes& others) {
+  return {hn::IfThenElse(hn::FirstN(TwoTag(), 1), first.low, others.low),
+          others.high};
+}
 HWY_INLINE Lanes SelectLast(const Lanes& others, const Lanes& last) {
   return {others.low,
           hn::IfThenElse(hn::FirstN(TwoTag(), 1), others.high, last.high)};
 }
-HWY_INLINE Lanes LoadFromSecond(const double* p) {
-  const Lanes a = Lanes::Load(p);
+HWY_INLINE Lanes FromSecond(const Lanes& a) {
+  return {hn::CombineShiftRightBytes<8>(TwoTag(), a.high, a.low),
+          hn::CombineShiftRightBytes<8>(TwoTag(), a.low, a.high)};
+}
+HWY_INLINE Lanes FromLast(const Lanes& a) {
   return {hn::CombineShiftRightBytes<8>(TwoTag(), a.low, a.high),
           hn::CombineShiftRightBytes<8>(TwoTag(), a.high, a.low)};
 }

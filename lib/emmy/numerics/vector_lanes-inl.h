@@ -52,10 +52,17 @@ HWY_INLINE Vectors LoadVectors(const double* p) {
   return v;
 }
 
-// s a, and what its rounding drops.
+// A result, and what its rounding drops.
 struct VectorsAndError {
   Vectors value, error;
 };
+HWY_INLINE VectorsAndError SumExactly(const Vectors& a, const Vectors& b) {
+  const LanesSum x = TwoSum(a.x, b.x);
+  const LanesSum y = TwoSum(a.y, b.y);
+  const LanesSum z = TwoSum(a.z, b.z);
+  return {{x.value, y.value, z.value}, {x.error, y.error, z.error}};
+}
+// s a.
 HWY_INLINE VectorsAndError ScaledExactly(const Lanes& s, const Vectors& a) {
   const LanesSum x = TwoProduct(s, a.x);
   const LanesSum y = TwoProduct(s, a.y);
