@@ -126,6 +126,47 @@ TEST_F(BodyBatchTest, ABodyMovesAsIfItWereAlone) {
   }
 }
 
+// Δe is Δt w̄ of the very rates that are committed: what is missing would be
+// angular momentum Δe × w̄. In long double, with Δt exact.
+TEST_F(BodyBatchTest, AncfBodiesMoveByTheMeanRateToTheLastBitOfAPair) {
+  using Long = long double;
+  static_assert(std::numeric_limits<Long>::digits >= 64);
+  const BuiltModel built =
+      BuildModel(MixedBodies(16, Formulation::kAncf, 1e10, Start::kRelaxed))
+          .value();
+  BodyBatch batch = MakeBatch(built, {.time_step = kStep});
+  State before = built.state;
+  State after = built.state;
+  for (int i = 0; i < 20; ++i) {
+    const BatchReport report = batch.Step(1);
+    ASSERT_TRUE(report.ok());
+    ASSERT_EQ(report.ordinary_steps, 0);
+    batch.Store(&after);
+    const auto change = [](const CompensatedVector& from,
+                           const CompensatedVector& to, Eigen::Index k) {
+      return (Long{to.value(k)} - from.value(k)) +
+             (Long{to.compensation(k)} - from.compensation(k));
+    };
+    for (const ModelBody& body : built.model.bodies()) {
+      for (Eigen::Index k = 3; k < 12; ++k) {
+        const Eigen::Index q = body.position_offset + k;
+        const Eigen::Index w = body.velocity_offset + k;
+        const Long rate = change(before.velocity, after.velocity, w);
+        const Long mean = Long{before.velocity.value(w)} +
+                          (before.velocity.compensation(w) + Long{0.5} * rate);
+        // A few roundings to 64 bits, and two of Δw to 53.
+        const Long bound =
+            kStep * (0x1p-60L * std::abs(mean) + 0x1p-52L * std::abs(rate));
+        EXPECT_LE(std::abs(change(before.position, after.position, q) -
+                           Long{kStep} * mean),
+                  bound)
+            << body.name << " " << k;
+      }
+    }
+    before = after;
+  }
+}
+
 struct Agreement {
   std::string name;
   ModelDescription description;

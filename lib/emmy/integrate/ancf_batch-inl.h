@@ -13,9 +13,10 @@
 // last one, or several such pairs. After the last, which goes into the
 // increments by
 //   Δe −= ½ Δt δw,  Δε −= ½ Δt sym(x)                               (BATCH-3)
-// instead of evaluating them again, what is left has to be lost in rounding, by
-// bounds from quantities at hand instead of a ratio of corrections: as strain,
-// and, a thousand times less, as moment (ancf_body_step.cc).
+// (Δe as a pair of doubles) instead of evaluating them again, what is left has
+// to be lost in rounding, by bounds from quantities at hand instead of a ratio
+// of corrections: as strain, and, a thousand times less, as moment
+// (ancf_body_step.cc).
 
 #if defined(EMMY_INTEGRATE_ANCF_BATCH_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef EMMY_INTEGRATE_ANCF_BATCH_INL_H_
@@ -40,6 +41,7 @@ struct PackStrain {
 
 struct AncfIncrement {
   Pack33 gradients;
+  Pack33 gradients_low;
   Pack33 rates;
   PackStrain strain;
 };
@@ -223,8 +225,8 @@ class AncfPackStep {
     z.c.y = MulAdd(second.y, moment.y, z.c.y);
     z.c.x = NegMulAdd(first.z, moment.z, z.c.x);
     z.a.z = MulAdd(second.z, moment.z, z.a.z);
-    const Pack33 correction = e.mean * z;
-    const Pack33 change = *rate_change - correction;
+    const Pack33 start = *rate_change;
+    const Pack33 change = start - e.mean * z;
 
     // Squares of norms, so that a sum of three has a factor of three.
     const Pack3 turn = {e.d.b.z, e.d.c.x, e.d.a.y};
@@ -254,7 +256,8 @@ class AncfPackStep {
     const Pack3 normal = {z.a.x, z.b.y, z.c.z};
     const Pack3 shear = {z.a.y + z.b.x, z.b.z + z.c.y, z.c.x + z.a.z};
     const AncfIncrement increment = {
-        NegMulAdd(half_step, correction, e.turned),
+        e.turned,
+        TurnedLow(e, start, change),
         change,
         {NegMulAdd(half_step, normal, e.strain.normal),
          NegMulAdd(half_step, shear, e.strain.shear)}};
@@ -264,6 +267,20 @@ class AncfPackStep {
       Commit(Writer<false>(done), increment);
     }
     return done;
+  }
+
+  // What Δt w̄ has besides e.turned, for the rate increment `change` instead of
+  // the `start` of the last correction: to the last bit, see docs/theory.md.
+  HWY_INLINE Pack33 TurnedLow(const Evaluation& e, const Pack33& start,
+                              const Pack33& change) const {
+    const Pack step = Broadcast(step_.time_step);
+    const Pack half_step = Broadcast(0.5 * step_.time_step);
+    const Pack33 small =
+        MulAdd(Broadcast(0.5), start, Load33(block_.rates.compensation, lane_));
+    const Pack33 rounding =
+        small - (e.mean_rates - Load33(block_.rates.value, lane_));
+    return NegMulAdd(half_step, start - change,
+                     MulAdd(step, rounding, ProductError(step, e.mean_rates)));
   }
 
   HWY_INLINE Pack33 TimesMoments(const Pack33& x) const {
@@ -292,7 +309,8 @@ class AncfPackStep {
   HWY_INLINE void Commit(const Writer<kAll>& writer,
                          const AncfIncrement& increment) {
     AdvanceCentre(step_, writer, lane_, &block_.centre);
-    writer.Add33(increment.gradients, lane_, &block_.gradients);
+    writer.Add33(increment.gradients, increment.gradients_low, lane_,
+                 &block_.gradients);
     writer.Add33(increment.rates, lane_, &block_.rates);
     writer.Add3(increment.strain.normal, block_.strain.value,
                 block_.strain.compensation, lane_);

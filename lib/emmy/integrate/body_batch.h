@@ -10,10 +10,6 @@
 // multiply-add (x86-64 from AVX2 on, Arm). Those without it agree with each
 // other, and with these to round-off.
 //
-// One thing is kept less well than by the ordinary step: the angular momentum
-// of relaxed ANCF bodies of 1e10 Pa drifts by 6e-22 of itself a step, by a
-// rounding with a mean that has not been found.
-//
 // Not covered: anything attached to a body (EnergyMomentumIntegrator), orders
 // above two, a tolerance above round-off.
 

@@ -162,6 +162,15 @@ HWY_INLINE Pack33 Dual(const Pack33& m) {
 
 using PackSum = WithError<Pack>;
 
+// What the rounding of s m drops.
+HWY_INLINE Pack3 ProductError(Pack s, const Pack3& v) {
+  return {TwoProduct(s, v.x).error, TwoProduct(s, v.y).error,
+          TwoProduct(s, v.z).error};
+}
+HWY_INLINE Pack33 ProductError(Pack s, const Pack33& m) {
+  return {ProductError(s, m.a), ProductError(s, m.b), ProductError(s, m.c)};
+}
+
 // What a step writes: only lanes of `done`, or all of them.
 template <bool kAll>
 class Writer {
@@ -202,6 +211,20 @@ class Writer {
     Add(increment.x, value[0] + lane, compensation[0] + lane);
     Add(increment.y, value[1] + lane, compensation[1] + lane);
     Add(increment.z, value[2] + lane, compensation[2] + lane);
+  }
+
+  // The same for increments with low-order parts.
+  HWY_INLINE void Add3(const Pack3& increment, const Pack3& low, Lanes* value,
+                       Lanes* compensation, int lane) const {
+    Add(PackSum{increment.x, low.x}, value[0] + lane, compensation[0] + lane);
+    Add(PackSum{increment.y, low.y}, value[1] + lane, compensation[1] + lane);
+    Add(PackSum{increment.z, low.z}, value[2] + lane, compensation[2] + lane);
+  }
+  HWY_INLINE void Add33(const Pack33& increment, const Pack33& low, int lane,
+                        CompensatedLanes<9>* to) const {
+    Add3(increment.a, low.a, to->value, to->compensation, lane);
+    Add3(increment.b, low.b, to->value + 3, to->compensation + 3, lane);
+    Add3(increment.c, low.c, to->value + 6, to->compensation + 6, lane);
   }
 
   HWY_INLINE void Add33(const Pack33& increment, int lane,
