@@ -30,9 +30,11 @@ CheckedRun::CheckedRun(const ModelDescription& description,
     error_ = report.message;
     return;
   }
+  warm_ = state_;
 }
 
 void CheckedRun::TimeSteps(benchmark::State& state, double bound) {
+  state_ = warm_;
   int64_t iterations = 0;
   const int factorizations =
       integrator_.has_value() ? integrator_->num_factorizations() : 0;

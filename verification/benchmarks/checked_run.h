@@ -24,18 +24,19 @@ class CheckedRun {
   CheckedRun(const ModelDescription& description,
              const IntegratorOptions& options, int warm_up = 100);
 
-  // Times steps, one an iteration, and fills the counters: `newton_iterations`,
-  // `energy_error`, `angular_momentum_error`,
-  // `factorizations` per step. Energy and angular momentum at the
-  // end are held against those of the start, before the warm-up; if they are
-  // not kept to `bound`, or a step fails, the benchmark ends with an error
-  // instead of a time.
+  // Times steps from the state after the warm-up, each time it is called, one
+  // an iteration, and fills the counters: `newton_iterations`, `energy_error`,
+  // `angular_momentum_error`, `factorizations` per step. Energy and angular
+  // momentum at the end are held against those of the start, before the
+  // warm-up; if they are not kept to `bound`, or a step fails, the benchmark
+  // ends with an error instead of a time.
   void TimeSteps(benchmark::State& state, double bound);
 
  private:
   std::string error_;
   std::unique_ptr<const Model> model_;
   State state_;
+  State warm_;  // After the warm-up.
   std::optional<EnergyMomentumIntegrator> integrator_;
   std::optional<InvariantMonitor> monitor_;
 };

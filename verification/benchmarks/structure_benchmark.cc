@@ -2,6 +2,11 @@
 
 #include <benchmark/benchmark.h>
 
+#include <functional>
+#include <memory>
+#include <string>
+
+#include "absl/strings/str_cat.h"
 #include "verification/benchmarks/checked_run.h"
 #include "verification/models/large_models.h"
 
@@ -16,12 +21,36 @@ IntegratorOptions Options(double time_step) {
   return options;
 }
 
+struct Case {
+  std::function<ModelDescription()> model;
+  IntegratorOptions options;
+  int warm_up = 10;  // Steps.
+};
+
+// Times a case. Its repetitions share one run, which begins again each time: to
+// make a large one takes many times as long as its steps. Only the last is
+// kept.
+void Time(benchmark::State& state, const std::string& name, const Case& made) {
+  static std::string last;
+  static std::unique_ptr<CheckedRun> run;
+  const std::string key =
+      absl::StrCat(name, "/", state.range(0), "/", made.options.time_step, "/",
+                   made.options.num_threads);
+  if (key != last) {
+    run.reset();
+    run =
+        std::make_unique<CheckedRun>(made.model(), made.options, made.warm_up);
+    last = key;
+  }
+  run->TimeSteps(state, kKept);
+}
+
 // Arguments: nodes a side, time step in microseconds.
 void Net(benchmark::State& state) {
-  CheckedRun run(SpinningNet(static_cast<int>(state.range(0))).model,
-                 Options(1e-6 * static_cast<double>(state.range(1))),
-                 /*warm_up=*/10);
-  run.TimeSteps(state, kKept);
+  const auto side = static_cast<int>(state.range(0));
+  Time(state, "net",
+       {[side] { return SpinningNet(side).model; },
+        Options(1e-6 * static_cast<double>(state.range(1)))});
 }
 BENCHMARK(Net)
     ->Name("net/kept_factor")
@@ -37,9 +66,9 @@ BENCHMARK(Net)
 void LargeNet(benchmark::State& state) {
   IntegratorOptions options = Options(1e-3);
   options.num_threads = static_cast<int>(state.range(1));
-  CheckedRun run(SpinningNet(static_cast<int>(state.range(0))).model, options,
-                 /*warm_up=*/10);
-  run.TimeSteps(state, kKept);
+  const auto side = static_cast<int>(state.range(0));
+  Time(state, "large_net",
+       {[side] { return SpinningNet(side).model; }, options});
 }
 BENCHMARK(LargeNet)
     ->Name("net/large")
@@ -56,9 +85,9 @@ void FreshFactors(benchmark::State& state, SymmetricFactor::Method method) {
       Options(1e-6 * static_cast<double>(state.range(1)));
   options.always_full_newton = true;
   options.factor_method = method;
-  CheckedRun run(SpinningNet(static_cast<int>(state.range(0))).model, options,
-                 /*warm_up=*/2);
-  run.TimeSteps(state, kKept);
+  const auto side = static_cast<int>(state.range(0));
+  Time(state, absl::StrCat("fresh", static_cast<int>(method)),
+       {[side] { return SpinningNet(side).model; }, options, /*warm_up=*/2});
 }
 void FreshLdlt(benchmark::State& state) {
   FreshFactors(state, SymmetricFactor::Method::kSimplicial);
@@ -83,9 +112,9 @@ BENCHMARK(FreshCholmod)
 
 // Argument: boxes.
 void Chain(benchmark::State& state) {
-  CheckedRun run(BoxChain(static_cast<int>(state.range(0))).model,
-                 Options(1e-3), /*warm_up=*/10);
-  run.TimeSteps(state, kKept);
+  const auto size = static_cast<int>(state.range(0));
+  Time(state, "chain",
+       {[size] { return BoxChain(size).model; }, Options(1e-3)});
 }
 BENCHMARK(Chain)
     ->Name("chain")
@@ -99,9 +128,9 @@ BENCHMARK(Chain)
 // The same of conventional bodies: six coordinates a box instead of twelve, a
 // matrix that is made anew in every step, and no lanes.
 void ConventionalChain(benchmark::State& state) {
-  CheckedRun run(ConventionalBoxChain(static_cast<int>(state.range(0))).model,
-                 Options(1e-3), /*warm_up=*/10);
-  run.TimeSteps(state, kKept);
+  const auto size = static_cast<int>(state.range(0));
+  Time(state, "conventional_chain",
+       {[size] { return ConventionalBoxChain(size).model; }, Options(1e-3)});
 }
 BENCHMARK(ConventionalChain)
     ->Name("chain/conventional")
@@ -115,8 +144,8 @@ BENCHMARK(ConventionalChain)
 void LongChain(benchmark::State& state) {
   IntegratorOptions options = Options(1e-3);
   options.num_threads = static_cast<int>(state.range(0));
-  CheckedRun run(BoxChain(1076748).model, options, /*warm_up=*/4);
-  run.TimeSteps(state, kKept);
+  Time(state, "long_chain",
+       {[] { return BoxChain(1076748).model; }, options, /*warm_up=*/4});
 }
 BENCHMARK(LongChain)
     ->Name("chain/long")
@@ -129,9 +158,8 @@ BENCHMARK(LongChain)
 
 // Argument: boxes a side; 2 n (n − 1) joints.
 void Grid(benchmark::State& state) {
-  CheckedRun run(BoxGrid(static_cast<int>(state.range(0))).model, Options(1e-3),
-                 /*warm_up=*/10);
-  run.TimeSteps(state, kKept);
+  const auto size = static_cast<int>(state.range(0));
+  Time(state, "grid", {[size] { return BoxGrid(size).model; }, Options(1e-3)});
 }
 BENCHMARK(Grid)
     ->Name("grid")
@@ -142,17 +170,16 @@ BENCHMARK(Grid)
     ->Unit(benchmark::kMillisecond);
 
 void Tree(benchmark::State& state) {
-  CheckedRun run(BoxTree(static_cast<int>(state.range(0))).model, Options(1e-3),
-                 /*warm_up=*/10);
-  run.TimeSteps(state, kKept);
+  const auto size = static_cast<int>(state.range(0));
+  Time(state, "tree", {[size] { return BoxTree(size).model; }, Options(1e-3)});
 }
 BENCHMARK(Tree)->Name("tree")->ArgName("boxes")->Arg(100)->Arg(1000)->Unit(
     benchmark::kMicrosecond);
 
 void TrussedRow(benchmark::State& state) {
-  CheckedRun run(TrussedBoxes(static_cast<int>(state.range(0))).model,
-                 Options(1e-3), /*warm_up=*/10);
-  run.TimeSteps(state, kKept);
+  const auto size = static_cast<int>(state.range(0));
+  Time(state, "trussed",
+       {[size] { return TrussedBoxes(size).model; }, Options(1e-3)});
 }
 BENCHMARK(TrussedRow)
     ->Name("trussed_boxes")
