@@ -270,7 +270,8 @@ class AncfPackStep {
   }
 
   // What Δt w̄ has besides e.turned, for the rate increment `change` instead of
-  // the `start` of the last correction: to the last bit, see docs/theory.md.
+  // the `start` of the last correction, see docs/theory.md: to the last bit,
+  // but for a rounding of ½ Δw where that is larger than the rate itself.
   HWY_INLINE Pack33 TurnedLow(const Evaluation& e, const Pack33& start,
                               const Pack33& change) const {
     const Pack step = Broadcast(step_.time_step);

@@ -140,7 +140,9 @@ HWY_INLINE BodyStepResult SolveBody(const AncfBodyLanes& body,
     bool done = false;
     const bool contracts = slowness + quadratic <= kSlow;
     if (contracts && body.options.tolerance.has_value()) {
-      done = size <= *body.options.tolerance * rate;
+      // A component of the correction has up to √3 of its largest entry.
+      constexpr double kRootOfThree = 1.7320508075688773;
+      done = kRootOfThree * size <= *body.options.tolerance * rate;
     } else if (contracts) {
       const double strain_floor =
           4.0 * kUnitRoundoff * rate;  // AncfBodyStep's.
@@ -184,9 +186,8 @@ HWY_INLINE BodyStepResult SolveBody(const AncfBodyLanes& body,
   shear.Store(increment->shear);
   // What is not finite in one of them is not in the sum either.
   const Lanes sum = (dw.x + dw.y) + (dw.z + (stretch + shear));
-  result.termination = LargestOfBody(Abs(sum - sum)) == 0.0
-                           ? Termination::kConverged
-                           : Termination::kNonFinite;
+  result.termination =
+      IsFiniteOfBody(sum) ? Termination::kConverged : Termination::kNonFinite;
   return result;
 }
 

@@ -8,8 +8,8 @@
 // a correction is, D = ½ Ēᵀ Δe without its diagonal and m the antisymmetric
 // part, both through (EM-6),
 //   Δw −= Ē (z − c ∘ sym(Dᵀ z) − ¼ Δt m(z S))                       (LANE-2)
-// What that leaves of an error x is, τ the largest entry of D, μ = 2 τ² + 2 ‖ε̄‖
-// and σ = 3/2 Δt² ‖b ε̄‖ ‖(EM-6)⁻¹‖, at most
+// What that leaves of an error x is, with τ the largest entry of D,
+// μ = 2 τ² + 2 max(‖ε̄‖, ½ ‖Δε‖) and σ = 3/2 Δt² ‖b ε̄‖ ‖(EM-6)⁻¹‖, at most
 //   (16 τ² + 6 μ + σ + κ x) x in the strains,
 //   (σ (4 τ + σ) + 4 μ² + κ x) x in the rotation,                   (LANE-3)
 // so that it is known before the next iteration whether that would be lost in
@@ -69,8 +69,8 @@ struct AncfBodyLanes {
   alignas(32) double second_moment[4] = {};
 };
 
-// Increments of a step, in the order of the state: centre (not meaningful), e₁,
-// e₂, e₃.
+// Increments of a step, in the order of the state: centre (not meaningful, as
+// the first number of stretch and shear), e₁, e₂, e₃: Δe [1], Δw [1/s], Δε [1].
 struct AncfLanesIncrement {
   double gradients[12] = {};
   double gradients_low[12] = {};  // What the rounding of those drops.

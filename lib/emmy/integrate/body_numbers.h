@@ -10,7 +10,11 @@
 
 namespace emmy {
 
-// What a step starts from. `low`: compensations.
+// What a step starts from; `low` are compensations. Position: x̄ [m], e₁, e₂, e₃
+// [1], or x̄ and the quaternion, 12 or 7 numbers; velocity: their rates [m/s,
+// 1/s], or that of x̄ and the angular velocity in body axes [rad/s], 12 or 6;
+// next: extrapolated velocity increments per second, as many; strain: six of an
+// ANCF body, of a conventional one not to be read.
 struct BodyStartNumbers {
   BodyStartNumbers(const ModelBody& body, const State& state)
       : position(state.position.value.data() + body.position_offset),
@@ -30,7 +34,8 @@ struct BodyStartNumbers {
   const double* next;
 };
 
-// Of a body's centre of mass in a step, Δt g, and zero. Made once: a vector of
+// Of a body's centre of mass in a step, Δt g [m/s], and zero, of the same Δt as
+// the step's other constants. Made once: a vector of
 // numbers that were just written one by one has to wait until all of them are
 // in the cache.
 struct CentreIncrement {

@@ -136,10 +136,10 @@ HWY_INLINE BodyStepResult SolveBody(const ConventionalBodyLanes& body,
   *increment = {change, dw, low};
   // What is not finite in one of them is not in the sum either.
   const Lanes sum = change + theta;
-  result.termination = Largest(Abs(change - change)) == 0.0 &&
-                               LargestOfBody(Abs(sum - sum)) == 0.0
-                           ? Termination::kConverged
-                           : Termination::kNonFinite;
+  const bool is_finite =
+      IsFiniteOfBody(sum) && IsFiniteOfBody(SwapInPairs(change));
+  result.termination =
+      is_finite ? Termination::kConverged : Termination::kNonFinite;
   return result;
 }
 

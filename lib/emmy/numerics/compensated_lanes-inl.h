@@ -33,6 +33,13 @@ HWY_INLINE double LargestOfBody(const Lanes& a) {
   return std::max(std::max(lanes[1], lanes[2]), lanes[3]);
 }
 
+// Whether the last three lanes are finite; a maximum may lose a NaN.
+HWY_INLINE bool IsFiniteOfBody(const Lanes& a) {
+  alignas(32) double rest[4];
+  (a - a).Store(rest);
+  return rest[1] == 0.0 && rest[2] == 0.0 && rest[3] == 0.0;
+}
+
 using LanesSum = WithError<Lanes>;
 
 // (SUM-2) for four numbers.
