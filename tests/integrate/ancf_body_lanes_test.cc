@@ -213,7 +213,9 @@ TEST_P(LanesStartTest, OneCorrectionLeavesWhatTheBoundSays) {
 // angular momentum Δe × w̄ and work without a force. In long double, which must
 // have more digits than the bound.
 TEST_P(LanesStartTest, MovesByTheMeanRateToTheLastBitOfAPair) {
-  static_assert(std::numeric_limits<long double>::digits >= 64);
+  using Long = long double;
+  static_assert(std::numeric_limits<Long>::digits >= 64);
+  const auto wide = [](double x) { return static_cast<Long>(x); };
   TestRun run(Boxes(GetParam()), kTimeStep);
   for (int i = 0; i < 50; ++i) {
     ASSERT_TRUE(run.Advance(1));
@@ -224,17 +226,16 @@ TEST_P(LanesStartTest, MovesByTheMeanRateToTheLastBitOfAPair) {
       ASSERT_EQ(SolveInLanes(lanes, body, state, &increment).termination,
                 Termination::kConverged);
       for (int k = 3; k < 12; ++k) {
-        using Long = long double;
-        const Long w0 = state.velocity.value(body.velocity_offset + k);
-        const Long low = state.velocity.compensation(body.velocity_offset + k);
-        const Long expected =
-            Long{kTimeStep} * (w0 + (low + Long{0.5} * increment.rates[k]));
+        const Eigen::Index entry = body.velocity_offset + k;
+        const Long w0 = wide(state.velocity.value(entry));
+        const Long low = wide(state.velocity.compensation(entry));
+        const Long rate = wide(increment.rates[k]);
+        const Long expected = wide(kTimeStep) * (w0 + (low + 0.5L * rate));
         const Long moved =
-            Long{increment.gradients[k]} + increment.gradients_low[k];
+            wide(increment.gradients[k]) + wide(increment.gradients_low[k]);
         // Four roundings to 64 bits each way, and one of w_low + ½ Δw to 53.
-        const Long bound =
-            kTimeStep *
-            (0x1p-61L * std::abs(w0) + 0x1p-53L * std::abs(increment.rates[k]));
+        const Long bound = wide(kTimeStep) * (0x1p-61L * std::abs(w0) +
+                                              0x1p-53L * std::abs(rate));
         EXPECT_LE(std::abs(moved - expected), bound) << k;
       }
     }

@@ -131,6 +131,7 @@ TEST_F(BodyBatchTest, ABodyMovesAsIfItWereAlone) {
 TEST_F(BodyBatchTest, AncfBodiesMoveByTheMeanRateToTheLastBitOfAPair) {
   using Long = long double;
   static_assert(std::numeric_limits<Long>::digits >= 64);
+  const auto wide = [](double x) { return static_cast<Long>(x); };
   const BuiltModel built =
       BuildModel(MixedBodies(16, Formulation::kAncf, 1e10, Start::kRelaxed))
           .value();
@@ -142,23 +143,23 @@ TEST_F(BodyBatchTest, AncfBodiesMoveByTheMeanRateToTheLastBitOfAPair) {
     ASSERT_TRUE(report.ok());
     ASSERT_EQ(report.ordinary_steps, 0);
     batch.Store(&after);
-    const auto change = [](const CompensatedVector& from,
-                           const CompensatedVector& to, Eigen::Index k) {
-      return (Long{to.value(k)} - from.value(k)) +
-             (Long{to.compensation(k)} - from.compensation(k));
+    const auto change = [&wide](const CompensatedVector& from,
+                                const CompensatedVector& to, Eigen::Index k) {
+      return (wide(to.value(k)) - wide(from.value(k))) +
+             (wide(to.compensation(k)) - wide(from.compensation(k)));
     };
     for (const ModelBody& body : built.model.bodies()) {
       for (Eigen::Index k = 3; k < 12; ++k) {
         const Eigen::Index q = body.position_offset + k;
         const Eigen::Index w = body.velocity_offset + k;
         const Long rate = change(before.velocity, after.velocity, w);
-        const Long mean = Long{before.velocity.value(w)} +
-                          (before.velocity.compensation(w) + Long{0.5} * rate);
+        const Long mean = wide(before.velocity.value(w)) +
+                          (wide(before.velocity.compensation(w)) + 0.5L * rate);
         // A few roundings to 64 bits, and two of Δw to 53.
-        const Long bound =
-            kStep * (0x1p-60L * std::abs(mean) + 0x1p-52L * std::abs(rate));
+        const Long bound = wide(kStep) * (0x1p-60L * std::abs(mean) +
+                                          0x1p-52L * std::abs(rate));
         EXPECT_LE(std::abs(change(before.position, after.position, q) -
-                           Long{kStep} * mean),
+                           wide(kStep) * mean),
                   bound)
             << body.name << " " << k;
       }
