@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <limits>
 
 #undef HWY_TARGET_INCLUDE
@@ -231,7 +232,7 @@ HWY_INLINE void CommitBody(const AncfLanesIncrement& increment,
   high.error.StoreLastPair(strain_low + 4);
 
   Lanes accelerations[3];
-  for (int i = 0; i < 3; ++i) {
+  for (size_t i = 0; i < 3; ++i) {
     accelerations[i] =
         Lanes::Set(1.0 / time_step) * Lanes::Load(increment.rates + 4 * i);
   }

@@ -80,8 +80,8 @@ ModelStep::ModelStep(
     const Model& model, const std::vector<Structure>& structures,
     double time_step, const ModelStepOptions& options,
     std::optional<ConventionalStructureStep> conventional_structure)
-    : time_step_(time_step),
-      centre_(time_step, model.gravity()),
+    : centre_(time_step, model.gravity()),
+      time_step_(time_step),
       conventional_structure_(std::move(conventional_structure)) {
   const NewtonOptions& newton = options.newton;
   const AncfBodyStep::Tangent tangent = options.always_full_newton

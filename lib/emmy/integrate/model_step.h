@@ -98,14 +98,14 @@ class ModelStep {
   bool AdvanceOnly(Part& part, State& state, StepReport* report) const;
   bool SolveAndCommit(State& state, StepReport* report);
 
-  double time_step_;
   CentreIncrement centre_;
+  double time_step_;
+  bool has_one_free_body_ = false;
   std::vector<FreeAncf> free_ancf_;
   std::vector<FreeConventional> free_conventional_;
   std::vector<std::unique_ptr<JointStep>> joined_;
   std::vector<CoupledStep> coupled_;
   std::optional<ConventionalStructureStep> conventional_structure_;
-  bool has_one_free_body_ = false;
 };
 
 }  // namespace emmy

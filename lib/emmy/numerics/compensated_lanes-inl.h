@@ -36,7 +36,7 @@ HWY_INLINE double LargestOfBody(const Lanes& a) {
 // Whether the last three lanes are finite; a maximum may lose a NaN.
 HWY_INLINE bool IsFiniteOfBody(const Lanes& a) {
   alignas(32) double rest[4];
-  (a - a).Store(rest);
+  (a - a).Store(rest);  // NOLINT(misc-redundant-expression)
   return rest[1] == 0.0 && rest[2] == 0.0 && rest[3] == 0.0;
 }
 
