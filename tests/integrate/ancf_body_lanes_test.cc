@@ -289,64 +289,18 @@ TEST_F(AncfBodyLanesTest, NothingThatIsNotFiniteConverges) {
   }
 }
 
-// In one call as in two, with every instruction set.
 TEST_F(AncfBodyLanesTest, AdvancesAsItSolvesAndCommits) {
-  TestRun run(Boxes(), kTimeStep);
-  ASSERT_TRUE(run.Advance(7));
-  const CentreIncrement centre(kTimeStep, run.model().gravity());
-  for (const int64_t target : InstructionSets()) {
-    ChooseInstructionSet(target);
-    State once = run.state();
-    State twice = run.state();
-    for (const ModelBody& body : run.model().bodies()) {
-      const AncfBodyLanes lanes(*body.ancf(), kTimeStep, {});
-      AncfLanesIncrement increment;
-      const BodyStepResult solved =
-          SolveInLanes(lanes, body, twice, &increment);
-      CommitInLanes(increment, kTimeStep, centre, body, twice);
-      const BodyStepResult advanced = AdvanceInLanes(lanes, centre, body, once);
-      EXPECT_EQ(advanced.termination, Termination::kConverged);
-      EXPECT_EQ(advanced.iterations, solved.iterations);
-      EXPECT_EQ(advanced.correction, solved.correction);
-    }
-    EXPECT_TRUE(SameState(once, twice)) << hwy::TargetName(target);
-  }
+  ExpectOneCallIsTwo<AncfBodyLanes, AncfLanesIncrement>(Boxes(), kTimeStep,
+                                                        &ModelBody::ancf);
 }
 
-// What does not converge leaves the state, in one call too.
 TEST_F(AncfBodyLanesTest, AFailedStepLeavesTheState) {
-  TestRun run(Boxes(), kTimeStep);
-  const ModelBody& body = run.model().bodies()[0];
-  State state = run.state();
-  state.velocity.value(body.velocity_offset + 4) = 1e300;
-  State after = state;
-  const AncfBodyLanes lanes(*body.ancf(), kTimeStep, {});
-  EXPECT_NE(AdvanceInLanes(lanes, CentreIncrement(kTimeStep, {0.0, 0.0, 0.0}),
-                           body, after)
-                .termination,
-            Termination::kConverged);
-  EXPECT_TRUE(SameState(after, state));
+  ExpectFailureLeavesTheState<AncfBodyLanes>(Boxes(), kTimeStep,
+                                             &ModelBody::ancf);
 }
 
-// A model of one body takes a way of its own.
 TEST_F(AncfBodyLanesTest, ABodyAloneMovesAsInCompany) {
-  const ModelDescription both = Boxes();
-  ModelDescription one = both;
-  one.rigid_bodies.pop_back();
-  TestRun together(both, kTimeStep);
-  TestRun alone(one, kTimeStep);
-  ASSERT_TRUE(together.Advance(50));
-  ASSERT_TRUE(alone.Advance(50));
-  const Eigen::Index q = alone.state().position.value.size();
-  const Eigen::Index w = alone.state().velocity.value.size();
-  EXPECT_EQ(alone.state().position.value,
-            together.state().position.value.head(q));
-  EXPECT_EQ(alone.state().position.compensation,
-            together.state().position.compensation.head(q));
-  EXPECT_EQ(alone.state().velocity.value,
-            together.state().velocity.value.head(w));
-  EXPECT_EQ(alone.state().velocity.compensation,
-            together.state().velocity.compensation.head(w));
+  ExpectABodyAloneMovesAsInCompany(Boxes(), kTimeStep, 50);
 }
 
 TEST_F(AncfBodyLanesTest, NeedsPrincipalAxes) {

@@ -8,6 +8,9 @@
 
 #include <cstdint>
 
+#include "emmy/integrate/body_numbers.h"
+#include "emmy/model/model.h"
+#include "emmy/model/state.h"
 #include "tests/support/instruction_sets.h"
 #include "tests/support/paper_box.h"
 #include "tests/support/test_run.h"
@@ -41,6 +44,75 @@ class LanesTest : public InstructionSetTest {
       EXPECT_TRUE(SameState(run.state(), reference.state()))
           << hwy::TargetName(target);
     }
+  }
+
+  // In one call as in two, with every instruction set. `element`: ancf() or
+  // conventional() of a body.
+  template <typename LanesType, typename IncrementType, typename Element>
+  static void ExpectOneCallIsTwo(const ModelDescription& model,
+                                 double time_step,
+                                 const Element* (ModelBody::*element)() const) {
+    TestRun run(model, time_step);
+    ASSERT_TRUE(run.Advance(7));
+    const CentreIncrement centre(time_step, run.model().gravity());
+    for (const int64_t target : InstructionSets()) {
+      ChooseInstructionSet(target);
+      State once = run.state();
+      State twice = run.state();
+      for (const ModelBody& body : run.model().bodies()) {
+        const LanesType lanes(*(body.*element)(), time_step, {});
+        IncrementType increment;
+        const BodyStepResult solved =
+            SolveInLanes(lanes, body, twice, &increment);
+        CommitInLanes(increment, time_step, centre, body, twice);
+        const BodyStepResult advanced =
+            AdvanceInLanes(lanes, centre, body, once);
+        EXPECT_EQ(advanced.termination, Termination::kConverged);
+        EXPECT_EQ(advanced.iterations, solved.iterations);
+        EXPECT_EQ(advanced.correction, solved.correction);
+      }
+      EXPECT_TRUE(SameState(once, twice)) << hwy::TargetName(target);
+    }
+  }
+
+  // What does not converge leaves the state, in one call too.
+  template <typename LanesType, typename Element>
+  static void ExpectFailureLeavesTheState(const ModelDescription& model,
+                                          double time_step,
+                                          const Element* (ModelBody::*element)()
+                                              const) {
+    TestRun run(model, time_step);
+    const ModelBody& body = run.model().bodies()[0];
+    State state = run.state();
+    state.velocity.value(body.velocity_offset + 4) = 1e300;
+    State after = state;
+    const LanesType lanes(*(body.*element)(), time_step, {});
+    const CentreIncrement centre(time_step, Vector3d::Zero());
+    EXPECT_NE(AdvanceInLanes(lanes, centre, body, after).termination,
+              Termination::kConverged);
+    EXPECT_TRUE(SameState(after, state));
+  }
+
+  // A model of one body takes a way of its own.
+  static void ExpectABodyAloneMovesAsInCompany(const ModelDescription& both,
+                                               double time_step,
+                                               int64_t num_steps) {
+    ModelDescription one = both;
+    one.rigid_bodies.pop_back();
+    TestRun together(both, time_step);
+    TestRun alone(one, time_step);
+    ASSERT_TRUE(together.Advance(num_steps));
+    ASSERT_TRUE(alone.Advance(num_steps));
+    const Eigen::Index q = alone.state().position.value.size();
+    const Eigen::Index w = alone.state().velocity.value.size();
+    EXPECT_EQ(alone.state().position.value,
+              together.state().position.value.head(q));
+    EXPECT_EQ(alone.state().position.compensation,
+              together.state().position.compensation.head(q));
+    EXPECT_EQ(alone.state().velocity.value,
+              together.state().velocity.value.head(w));
+    EXPECT_EQ(alone.state().velocity.compensation,
+              together.state().velocity.compensation.head(w));
   }
 };
 

@@ -27,11 +27,6 @@ namespace HWY_NAMESPACE {
 
 constexpr double kUnitRoundoff = std::numeric_limits<double>::epsilon() / 2.0;
 
-HWY_INLINE double LargestEntry(const Lanes& own, const Lanes& next,
-                               const Lanes& previous) {
-  return LargestOfBody(Max(Max(Abs(own), Abs(next)), Abs(previous)));
-}
-
 // A step is one long chain of operations that wait for each other. What the
 // chain need not wait for is taken out of it: halves are carried instead of
 // being formed, which is exact, and nothing is divided. Of a matrix with a row
@@ -106,7 +101,7 @@ HWY_INLINE BodyStepResult SolveBody(const AncfBodyLanes& body,
         (back * own0 + forth * own0_next) +
         (Next(forth) * previous0 + back_previous * next0_next);
     const Lanes moment =
-        Lanes::Load(body.quarter_step) *
+        Lanes::Set(0.25 * dt) *
         ((stretch_impulse * next0 + shear_impulse * (own0_next - own0) -
           Next(stretch_impulse) * Next(previous0)) +
          (Previous(shear_impulse) * Previous(previous0) -
@@ -120,7 +115,8 @@ HWY_INLINE BodyStepResult SolveBody(const AncfBodyLanes& body,
     half_dw = half_dw - ((own * e + next * e_next) + previous * Previous(e));
 
     result.iterations = i;
-    result.correction = 2.0 * LargestEntry(own, next, previous);
+    result.correction =
+        2.0 * LargestOfBody(MaxAbs(Vectors{own, next, previous}));
     const double rate = LargestOfBody(MaxAbs(mean_w));
     const double impulse =
         LargestOfBody(Max(Abs(stretch_impulse), Abs(shear_impulse)));
@@ -294,7 +290,6 @@ AncfBodyLanes::AncfBodyLanes(const AncfRigidBody& body, double step,
     twice_moment[pair] = 2.0 * moments(i);
     stretch[pair] = step * b(i);
     shear[pair] = step * b(3 + i);
-    quarter_step[pair] = 0.25 * step;
     half_inverse[pair] = 0.5 / (moments(i) + quarter * b(i));
     stretch_share[pair] = quarter * b(i) / (moments(i) + quarter * b(i));
     // The determinant without the cancellation of c² − c².

@@ -51,7 +51,6 @@ struct AncfBodyLanes {
   alignas(32) double twice_moment[4] = {};  // 2 Mⁱⁱ [kg m²]
   alignas(32) double stretch[4] = {};       // Δt b of the stretches [J s]
   alignas(32) double shear[4] = {};         // Δt b of the pairs [J s]
-  alignas(32) double quarter_step[4] = {};  // ¼ Δt, but in the first lane.
   // Half the inverse of (EM-6) [1/(kg m²)]: ½/(Mⁱⁱ + cᵢ), and for a pair (m, n)
   // ½ [Mⁿ + c, −c; −c, Mᵐ + c]/determinant.
   alignas(32) double half_inverse[4] = {};

@@ -10,6 +10,8 @@
 #include <limits>
 #include <vector>
 
+#include "emmy/integrate/body_numbers.h"
+
 // The part that is read once, before the first instruction set's.
 #ifndef EMMY_INTEGRATE_LINED_BODY_LANES_CC_
 #define EMMY_INTEGRATE_LINED_BODY_LANES_CC_
@@ -63,16 +65,6 @@ struct NodeState {
   alignas(32) std::array<Four, 3> acceleration{};
   alignas(32) Four strain{};
   alignas(32) Four strain_low{};
-};
-
-struct BodyState {
-  const double* position;
-  const double* position_low;
-  const double* rate;
-  const double* rate_low;
-  const double* acceleration;
-  const double* strain;
-  const double* strain_low;
 };
 
 struct LinedIncrement {
@@ -249,15 +241,16 @@ HWY_INLINE double Sum(const Lanes& a) {
   return (lanes[0] + lanes[1]) + (lanes[2] + lanes[3]);
 }
 
-BodyStepResult SolveLined(const Constants& constants, const BodyState& body,
-                          const NodeState& nodes, LinedIncrement* increment) {
+BodyStepResult SolveLined(const Constants& constants,
+                          const BodyStartNumbers& body, const NodeState& nodes,
+                          LinedIncrement* increment) {
   constexpr double kUnitRoundoff = std::numeric_limits<double>::epsilon() / 2.0;
   const double dt = constants.time_step;
   const int count = constants.num_lines;
   const Lanes step = Lanes::Set(dt);
   const Lanes half_step = Lanes::Set(0.5 * dt);
-  const Vectors w0 = LoadVectors(body.rate);
-  const Vectors w_low = LoadVectors(body.rate_low);
+  const Vectors w0 = LoadVectors(body.velocity);
+  const Vectors w_low = LoadVectors(body.velocity_low);
   const Vectors e0 = LoadVectors(body.position);
   const Vectors e_low = LoadVectors(body.position_low);
   const Vectors node_w0 = At(nodes.rate);
@@ -282,7 +275,7 @@ BodyStepResult SolveLined(const Constants& constants, const BodyState& body,
   StagnationMonitor moment_monitor;
   StagnationMonitor work_monitor;
   LineTangent tangent;
-  Vectors half_dw = half_step * LoadVectors(body.acceleration);
+  Vectors half_dw = half_step * LoadVectors(body.next);
   Vectors node_half_dw = half_step * At(nodes.acceleration);
   int settled = 0;
   for (int i = 1;; ++i) {
@@ -651,16 +644,7 @@ LinedBodyLanes::LinedBodyLanes(const Structure& structure, double time_step,
 BodyStepResult LinedBodyLanes::Solve(const State& state, Matrix3Xd* dw,
                                      Matrix3Xd* dq,
                                      VectorXd* strain_increment) const {
-  const Eigen::Index q = structure_->vectors[0].position_offset;
-  const Eigen::Index w = structure_->vectors[0].velocity_offset;
-  const Eigen::Index s = structure_->strain_offsets[0];
-  const BodyState body = {state.position.value.data() + q,
-                          state.position.compensation.data() + q,
-                          state.velocity.value.data() + w,
-                          state.velocity.compensation.data() + w,
-                          state.acceleration.next.data() + w,
-                          state.strain.value.data() + s,
-                          state.strain.compensation.data() + s};
+  const BodyStartNumbers body(*structure_->bodies.front().body, state);
   NodeState nodes;
   const auto lines = static_cast<size_t>(constants_->num_lines);
   std::array<Eigen::Index, kMaxLines> vector_of{};

@@ -64,6 +64,12 @@ ABSL_ATTRIBUTE_NOINLINE BodyStepResult SolveInGeneral(
   return result;
 }
 
+// The most that any part needed.
+void Record(const BodyStepResult& result, StepReport* report) {
+  report->iterations = std::max(report->iterations, result.iterations);
+  report->correction = std::max(report->correction, result.correction);
+}
+
 }  // namespace
 
 absl::StatusOr<ModelStep> ModelStep::Create(
@@ -148,8 +154,7 @@ int ModelStep::num_factorizations() const {
 template <typename Name>
 bool ModelStep::Accept(const BodyStepResult& result, const State& state,
                        const Name& name, StepReport* report) const {
-  report->iterations = std::max(report->iterations, result.iterations);
-  report->correction = std::max(report->correction, result.correction);
+  Record(result, report);
   if (result.termination == Termination::kConverged) return true;
   report->termination = result.termination;
   report->message = absl::StrFormat(
@@ -181,8 +186,7 @@ bool ModelStep::SolveFree(const State& state, Part& part,
   if (part.lanes.has_value()) {
     result = SolveInLanes(*part.lanes, *part.body, state, &part.increment);
     if (result.termination == Termination::kConverged) {
-      report->iterations = std::max(report->iterations, result.iterations);
-      report->correction = std::max(report->correction, result.correction);
+      Record(result, report);
       return true;
     }
   }
@@ -242,8 +246,7 @@ bool ModelStep::AdvanceOnly(Part& part, State& state,
   if (part.lanes.has_value()) {
     result = AdvanceInLanes(*part.lanes, centre_, *part.body, state);
     if (result.termination == Termination::kConverged) {
-      report->iterations = result.iterations;
-      report->correction = result.correction;
+      Record(result, report);
       return true;
     }
   }
