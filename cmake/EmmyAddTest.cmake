@@ -28,6 +28,7 @@ endif()
 
 # emmy_add_test(<name> <source>... [LABELS <label>...] [LIBRARIES <target>...]
 #               [TIMEOUT <seconds>] [ARGUMENTS <argument>...]
+#               [SEPARATE <source>...]
 #               [WITHOUT_VERIFICATION | LIBRARY_ONLY])
 #
 # One GoogleTest program from all tests of one folder, because linking costs
@@ -39,12 +40,16 @@ endif()
 # need not be built: half of the time where every line is instrumented, or
 # where another compiler runs only this test.
 #
-# LIBRARY_ONLY: likewise, and the test is of lib alone. emmy_library_tests builds
+# SEPARATE: sources that give a helper the name of another file's, and so are
+# compiled on their own where CMAKE_UNITY_BUILD joins the others.
+#
+# LIBRARY_ONLY: as WITHOUT_VERIFICATION, and the test is of lib alone. emmy_library_tests builds
 # all of these, `ctest -L library` runs them.
 add_custom_target(emmy_library_tests)
 function(emmy_add_test name)
   cmake_parse_arguments(PARSE_ARGV 1 arg "LIBRARY_ONLY;WITHOUT_VERIFICATION"
-    "TIMEOUT" "LABELS;LIBRARIES;ARGUMENTS")
+    "TIMEOUT" "LABELS;LIBRARIES;ARGUMENTS;SEPARATE")
+  list(APPEND arg_UNPARSED_ARGUMENTS ${arg_SEPARATE})
   if(NOT arg_UNPARSED_ARGUMENTS)
     return()
   endif()
@@ -59,6 +64,8 @@ function(emmy_add_test name)
   list(REMOVE_DUPLICATES arg_LABELS)
 
   add_executable(${name} ${arg_UNPARSED_ARGUMENTS})
+  set_source_files_properties(${arg_SEPARATE}
+    PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
   _emmy_set_up_test(${name})
   if(arg_LIBRARY_ONLY)
     add_dependencies(emmy_library_tests ${name})

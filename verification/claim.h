@@ -62,6 +62,10 @@ struct ClaimSetting {
   double fault = 0.0;
 };
 
+inline bool IsFull(const ClaimSetting& setting) {
+  return setting.level == Level::kFull;
+}
+
 struct Claim {
   std::string id;         // "<group>/<name>", never used for another claim.
   std::string sentence;   // What is claimed, in words.

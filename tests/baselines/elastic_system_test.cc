@@ -6,13 +6,12 @@
 
 #include "emmy/diagnostics/invariants.h"
 #include "emmy/model/model_builder.h"
+#include "emmy/numerics/unit_roundoff.h"
 #include "tests/support/random_source.h"
 #include "verification/runs/paper_box.h"
 
 namespace emmy::verification {
 namespace {
-
-constexpr double kUnit = 0x1p-53;
 
 BuiltModel Build(const ModelDescription& description) {
   absl::StatusOr<BuiltModel> built = BuildModel(description);
@@ -43,7 +42,7 @@ TEST(ElasticSystemTest, HasTheMassOfTheModel) {
       MeasureInvariants(sample.built.model, sample.built.state)
           .kinetic_energy.ToDouble();
   EXPECT_NEAR(0.5 * sample.w.dot(sample.system.mass * sample.w), energy,
-              100 * kUnit * energy);
+              100 * kUnitRoundoff * energy);
 }
 
 TEST(ElasticSystemTest, HasTheForcesOfTheLibrarysElements) {
@@ -67,7 +66,7 @@ TEST(ElasticSystemTest, HasTheForcesOfTheLibrarysElements) {
   }
   EXPECT_NEAR(
       (InternalForce(sample.system, sample.q) - force).cwiseAbs().maxCoeff(),
-      0.0, 100 * kUnit * force.cwiseAbs().maxCoeff());
+      0.0, 100 * kUnitRoundoff * force.cwiseAbs().maxCoeff());
 }
 
 TEST(ElasticSystemTest, ForceIsTheSlopeOfTheEnergyAndStiffnessOfTheForce) {
@@ -91,11 +90,11 @@ TEST(ElasticSystemTest, ForceIsTheSlopeOfTheEnergyAndStiffnessOfTheForce) {
     };
     const double scale = stiffness.cwiseAbs().maxCoeff();
     EXPECT_NEAR((4.0 * slope(kH) - slope(2.0 * kH)) / 3.0, force(i),
-                100 * kUnit * scale / kH);
+                100 * kUnitRoundoff * scale / kH);
     const VectorXd column =
         (4.0 * force_slope(kH) - force_slope(2.0 * kH)) / 3.0;
     EXPECT_NEAR((column - stiffness.col(i)).cwiseAbs().maxCoeff(), 0.0,
-                100 * kUnit * scale / kH);
+                100 * kUnitRoundoff * scale / kH);
   }
 }
 

@@ -8,10 +8,10 @@
 #include <functional>
 #include <string>
 
+#include "emmy/numerics/unit_roundoff.h"
+
 namespace emmy::verification {
 namespace {
-
-constexpr double kUnit = 0x1p-53;
 
 // q̈ + Ω² q = 0.
 ElasticSystem Oscillator(double frequency) {
@@ -87,7 +87,7 @@ TEST(NewmarkTest, KeepsTheEnergyOfAnOscillator) {
     }
     const double energy = 0.5 * motion.velocity.squaredNorm() +
                           PotentialEnergy(system, motion.position);
-    EXPECT_NEAR(energy, 24.5, 24.5 * 8 * kSteps * kUnit);
+    EXPECT_NEAR(energy, 24.5, 24.5 * 8 * kSteps * kUnitRoundoff);
   }
 }
 

@@ -5,13 +5,10 @@
 
 #include <cmath>
 #include <cstdint>
-#include <limits>
+
+#include "emmy/numerics/unit_roundoff.h"
 
 namespace emmy {
-
-// u, half the distance from 1 to the next double.
-inline constexpr double kUnitRoundoff =
-    std::numeric_limits<double>::epsilon() / 2.0;
 
 // Bound for `num_ops` operations on terms whose absolute values add up to
 // `magnitude` (same unit as the result): γ_n · magnitude with

@@ -13,12 +13,12 @@
 namespace emmy {
 namespace {
 
-struct Arguments {
+struct CheckArguments {
   std::string case_path;
   std::vector<std::string> overrides;
 };
 
-ExitStatus Check(const Arguments& arguments) {
+ExitStatus Check(const CheckArguments& arguments) {
   const absl::StatusOr<LoadedCase> loaded =
       LoadCaseFile(arguments.case_path, arguments.overrides);
   if (!loaded.ok()) return PrintError(loaded.status(), kExitBadInput);
@@ -42,7 +42,7 @@ ExitStatus Check(const Arguments& arguments) {
 Command AddCheckCommand(CLI::App& app) {
   CLI::App* options = app.add_subcommand(
       "check", "Validate a case and print what the model is");
-  const auto arguments = std::make_shared<Arguments>();
+  const auto arguments = std::make_shared<CheckArguments>();
   options->add_option("CASE", arguments->case_path, "Case file (JSON)")
       ->required()
       ->type_name("");

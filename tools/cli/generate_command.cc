@@ -14,7 +14,7 @@
 namespace emmy {
 namespace {
 
-struct Arguments {
+struct GenerateArguments {
   std::string model;
   int size = 0;
   std::string output;
@@ -31,7 +31,7 @@ const std::map<std::string, std::function<Case(int)>>& Models() {
   return *models;
 }
 
-ExitStatus Generate(const Arguments& arguments) {
+ExitStatus Generate(const GenerateArguments& arguments) {
   const std::string text =
       WriteCase(Models().at(arguments.model)(arguments.size));
   if (arguments.output.empty()) {
@@ -48,7 +48,7 @@ ExitStatus Generate(const Arguments& arguments) {
 Command AddGenerateCommand(CLI::App& app) {
   CLI::App* options =
       app.add_subcommand("generate", "Write the case file of a large model");
-  const auto arguments = std::make_shared<Arguments>();
+  const auto arguments = std::make_shared<GenerateArguments>();
   std::vector<std::string> names;
   for (const auto& [name, make] : Models()) names.push_back(name);
   options->add_option("MODEL", arguments->model, "Which, see below")

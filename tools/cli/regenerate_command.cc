@@ -17,7 +17,7 @@ namespace {
 
 using verification::Artifact;
 
-struct Arguments {
+struct RegenerateArguments {
   std::vector<std::string> only;
   bool check = false;
 };
@@ -43,7 +43,7 @@ absl::StatusOr<std::vector<const Artifact*>> Select(
   return selected;
 }
 
-ExitStatus Regenerate(const Arguments& arguments) {
+ExitStatus Regenerate(const RegenerateArguments& arguments) {
   const absl::StatusOr<std::vector<const Artifact*>> artifacts =
       Select(arguments.only);
   if (!artifacts.ok()) return PrintError(artifacts.status(), kExitBadInput);
@@ -74,7 +74,7 @@ ExitStatus Regenerate(const Arguments& arguments) {
 Command AddRegenerateCommand(CLI::App& app) {
   CLI::App* options = app.add_subcommand(
       "regenerate", "Compute reference data and figures anew");
-  const auto arguments = std::make_shared<Arguments>();
+  const auto arguments = std::make_shared<RegenerateArguments>();
   options
       ->add_option("--only", arguments->only, "Only this one; may be repeated")
       ->type_name("NAME")

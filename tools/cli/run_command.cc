@@ -30,7 +30,7 @@
 namespace emmy {
 namespace {
 
-struct Arguments {
+struct RunArguments {
   std::string case_path;
   std::string output;
   std::vector<std::string> overrides;
@@ -48,7 +48,7 @@ struct Arguments {
 };
 
 // A checkpoint that fits the case, as far as the run can go on from it.
-absl::Status CheckResumable(const Arguments& arguments,
+absl::Status CheckResumable(const RunArguments& arguments,
                             const Checkpoint& checkpoint,
                             const LoadedCase& loaded, int64_t num_steps) {
   const absl::Status same =
@@ -72,7 +72,7 @@ absl::Status CheckResumable(const Arguments& arguments,
 
 // The checkpoint to go on from, with the integrator as it was there.
 absl::StatusOr<Checkpoint> LoadCheckpoint(
-    const Arguments& arguments, const LoadedCase& loaded, int64_t num_steps,
+    const RunArguments& arguments, const LoadedCase& loaded, int64_t num_steps,
     EnergyMomentumIntegrator& integrator) {
   absl::StatusOr<Checkpoint> checkpoint = ReadCheckpoint(arguments.resume);
   if (!checkpoint.ok()) return checkpoint.status();
@@ -95,7 +95,7 @@ absl::StatusOr<Checkpoint> LoadCheckpoint(
 
 // Whether checkpoints can be written, before anything else is. A checkpoint
 // that is there already may be worth days.
-absl::Status CheckCheckpointPath(const Arguments& arguments) {
+absl::Status CheckCheckpointPath(const RunArguments& arguments) {
   const std::string& path = arguments.checkpoint_path();
   if (path.empty()) return absl::OkStatus();
   std::error_code ignored;
@@ -143,7 +143,7 @@ std::string Quoted(const std::string& word) {
 }
 
 // The command that goes on with this run.
-std::string ResumeCommand(const Arguments& arguments) {
+std::string ResumeCommand(const RunArguments& arguments) {
   std::string command = "emmy run " + Quoted(arguments.case_path);
   const auto add = [&command](const char* option, const std::string& value) {
     if (value.empty()) return;
@@ -197,7 +197,7 @@ ExitStatus RefuseOrFail(const absl::Status& status) {
 }
 
 // Writes the summary and says what became of the run.
-ExitStatus Report(const Arguments& arguments, const RunResult& result,
+ExitStatus Report(const RunArguments& arguments, const RunResult& result,
                   const std::string& history_path) {
   const RunSummary& summary = result.summary;
   ExitStatus exit_status = kExitFailed;
@@ -224,7 +224,7 @@ ExitStatus Report(const Arguments& arguments, const RunResult& result,
   return exit_status;
 }
 
-ExitStatus Run(const Arguments& arguments) {
+ExitStatus Run(const RunArguments& arguments) {
   if (arguments.checkpoint_every.has_value() &&
       arguments.checkpoint_path().empty()) {
     return PrintError(
@@ -287,7 +287,7 @@ ExitStatus Run(const Arguments& arguments) {
 
 Command AddRunCommand(CLI::App& app) {
   CLI::App* options = app.add_subcommand("run", "Compute the motion of a case");
-  const auto arguments = std::make_shared<Arguments>();
+  const auto arguments = std::make_shared<RunArguments>();
   options->add_option("CASE", arguments->case_path, "Case file (JSON)")
       ->required()
       ->type_name("");

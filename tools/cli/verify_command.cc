@@ -27,7 +27,7 @@ namespace {
 using verification::Claim;
 using verification::Outcome;
 
-struct Arguments {
+struct VerifyArguments {
   bool list = false;
   std::string format = "text";
   std::vector<std::string> only;
@@ -87,7 +87,7 @@ class Counter {
   bool enabled_;
 };
 
-ExitStatus Verify(const Arguments& arguments) {
+ExitStatus Verify(const VerifyArguments& arguments) {
   const absl::StatusOr<std::vector<const Claim*>> claims =
       Select(arguments.only);
   if (!claims.ok()) return PrintError(claims.status(), kExitBadInput);
@@ -145,7 +145,7 @@ Command AddVerifyCommand(CLI::App& app,
                          const std::vector<std::string>& command_line) {
   CLI::App* options = app.add_subcommand(
       "verify", "Measure what is claimed about Emmy, and judge");
-  const auto arguments = std::make_shared<Arguments>();
+  const auto arguments = std::make_shared<VerifyArguments>();
   CLI::Option* list = options->add_flag("--list", arguments->list,
                                         "Print the claims and measure nothing");
   options

@@ -21,7 +21,7 @@ absl::StatusOr<ClaimResult> AttitudeAgreement(
       ReadMotion(conventional, options, kTimes, setting.scheme);
   if (!rigid.ok()) return rigid.status();
   const std::vector<double> penalties =
-      PowersOfTen(6, 10, setting.level == Level::kFull ? 1 : 2);
+      PowersOfTen(6, 10, IsFull(setting) ? 1 : 2);
   std::vector<double> errors;
   ClaimResult result;
   for (const double penalty : penalties) {

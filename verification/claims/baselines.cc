@@ -24,10 +24,6 @@ constexpr double kUnit = 0.5 * std::numeric_limits<double>::epsilon();
 
 ModelDescription Box(double penalty) { return PaperBoxAncf(penalty); }
 
-bool IsFull(const ClaimSetting& setting) {
-  return setting.level == Level::kFull;
-}
-
 // How many times larger a baseline's energy error is than that of the scheme.
 double TimesLarger(const BaselinePanel& panel, size_t baseline) {
   return panel.methods[baseline].largest_energy /

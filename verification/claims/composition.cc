@@ -245,8 +245,7 @@ absl::StatusOr<ClaimResult> Conservation(const ClaimSetting& setting) {
     for (const int order : {4, 6}) {
       const absl::StatusOr<ConservationErrors> errors = MeasureConservation(
           each.model, {.order = order, .time_step = each.time_step},
-          setting.level == Level::kFull ? each.full_steps : each.quick_steps,
-          setting.scheme);
+          IsFull(setting) ? each.full_steps : each.quick_steps, setting.scheme);
       if (!errors.ok()) return errors.status();
       const std::string label =
           absl::StrFormat("%s, order %d", each.name, order);

@@ -13,7 +13,7 @@ namespace emmy::verification {
 namespace {
 
 int64_t NumSteps(const ClaimSetting& setting) {
-  return setting.level == Level::kFull ? 1000000 : 50000;
+  return IsFull(setting) ? 1000000 : 50000;
 }
 
 using Select = double ConservationErrors::*;

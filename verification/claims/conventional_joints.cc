@@ -19,10 +19,6 @@
 namespace emmy::verification {
 namespace {
 
-bool IsFull(const ClaimSetting& setting) {
-  return setting.level == Level::kFull;
-}
-
 absl::StatusOr<ClaimResult> ChainLaws(const ClaimSetting& setting) {
   const int64_t steps = IsFull(setting) ? 10000 : 1000;
   ClaimResult result;

@@ -154,7 +154,7 @@ absl::StatusOr<ClaimResult> PendulumPhase(const ClaimSetting& setting) {
   if (!model.ok()) return model.status();
   const exact::Pendulum<double> pendulum(1.0, 9.81, 0.5 * M_PI);
   const double half_period = 0.5 * pendulum.Period();
-  const double duration = setting.level == Level::kFull ? 2000.0 : 200.0;
+  const double duration = IsFull(setting) ? 2000.0 : 200.0;
   // The first passage is a quarter of a period after the release.
   const int count = static_cast<int>(duration / half_period + 0.5);
   const double expected = (count - 0.5) * half_period;

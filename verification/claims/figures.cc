@@ -264,8 +264,8 @@ absl::StatusOr<ClaimResult> InternalEnergyFigure(
 // --- The energy error over many steps, beside a naive variant. -------------
 
 absl::StatusOr<ClaimResult> EnergyError(const ClaimSetting& setting) {
-  const absl::StatusOr<EnergyErrorStudy> study = StudyEnergyError(
-      setting.level == Level::kFull ? 1000000 : 20000, setting.scheme);
+  const absl::StatusOr<EnergyErrorStudy> study =
+      StudyEnergyError(IsFull(setting) ? 1000000 : 20000, setting.scheme);
   if (!study.ok()) return study.status();
   ClaimResult result;
   for (const EnergyErrorCurve& curve : study->curves) {

@@ -83,7 +83,7 @@ absl::StatusOr<ClaimResult> Measure(const ClaimSetting& setting,
                                     const ModelDescription& description,
                                     const std::string& name,
                                     bool energy_walks) {
-  const int members = setting.level == Level::kFull ? 64 : 32;
+  const int members = IsFull(setting) ? 64 : 32;
   Growth growth;
   for (const int64_t steps : Readings(setting.level)) {
     growth.steps.push_back(static_cast<double>(steps));

@@ -21,7 +21,7 @@ const std::vector<double>& Penalties() {
 
 absl::StatusOr<ClaimResult> KeptLaws(const ClaimSetting& setting,
                                      double time_step) {
-  const int64_t steps = setting.level == Level::kFull ? 100000 : 20000;
+  const int64_t steps = IsFull(setting) ? 100000 : 20000;
   ClaimResult result;
   for (const double penalty : Penalties()) {
     const absl::StatusOr<ConservationErrors> errors = MeasureConservation(
@@ -39,7 +39,7 @@ absl::StatusOr<ClaimResult> KeptLaws(const ClaimSetting& setting,
 
 absl::StatusOr<ClaimResult> Converges(const ClaimSetting& setting,
                                       double time_step) {
-  const int64_t steps = setting.level == Level::kFull ? 100000 : 5000;
+  const int64_t steps = IsFull(setting) ? 100000 : 5000;
   ClaimResult result;
   int worst = 0;
   for (const double penalty : Penalties()) {
@@ -147,7 +147,7 @@ double SilentError(Run& run, double time_step, int64_t steps, int* failures) {
 }
 
 absl::StatusOr<ClaimResult> NeverSilent(const ClaimSetting& setting) {
-  const int64_t steps = setting.level == Level::kFull ? 2000 : 200;
+  const int64_t steps = IsFull(setting) ? 2000 : 200;
   ClaimResult result;
   int failures = 0;
   for (const double time_step : {0.5, 1.0, 2.0, 5.0, 20.0, 100.0}) {

@@ -5,20 +5,16 @@
 
 #include <Eigen/Core>
 #include <cstdint>
-#include <limits>
 #include <random>
 
 #include "emmy/base/types.h"
+#include "emmy/numerics/unit_roundoff.h"
 
 namespace emmy::verification {
 
 using Real = long double;
 using RealVector = Eigen::Matrix<Real, 3, 1>;
 using RealMatrix = Eigen::Matrix<Real, 3, 3>;
-
-// Of the doubles that are judged.
-inline constexpr double kUnitRoundoff =
-    std::numeric_limits<double>::epsilon() / 2.0;
 
 constexpr Real Wide(double x) { return static_cast<Real>(x); }
 constexpr double Narrow(Real x) { return static_cast<double>(x); }

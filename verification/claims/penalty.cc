@@ -68,7 +68,7 @@ absl::StatusOr<Study> StudyPenalties(const ClaimSetting& setting,
 }
 
 std::vector<double> Decades(const ClaimSetting& setting, int first, int last) {
-  return PowersOfTen(first, last, setting.level == Level::kFull ? 1 : 2);
+  return PowersOfTen(first, last, IsFull(setting) ? 1 : 2);
 }
 
 absl::StatusOr<ClaimResult> Exponent(const ClaimSetting& setting, int first,

@@ -20,10 +20,6 @@
 namespace emmy::verification {
 namespace {
 
-bool IsFull(const ClaimSetting& setting) {
-  return setting.level == Level::kFull;
-}
-
 void AddErrors(const std::string& name, const ConservationErrors& errors,
                ClaimResult* result) {
   result->values.push_back({name + ", energy", errors.energy});

@@ -4,12 +4,12 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 #include "absl/strings/str_cat.h"
 #include "emmy/diagnostics/structure_motion.h"
 #include "emmy/numerics/rotation.h"
+#include "emmy/numerics/unit_roundoff.h"
 #include "verification/claims/groups.h"
 #include "verification/runs/motion_error.h"
 #include "verification/runs/paper_box.h"
@@ -18,7 +18,6 @@
 namespace emmy::verification {
 namespace {
 
-constexpr double kUnitRoundoff = std::numeric_limits<double>::epsilon() / 2.0;
 constexpr double kTimeStep = 0.01;  // [s]
 constexpr int64_t kNumSteps = 1000;
 constexpr double kDuration = 10.0;  // [s]

@@ -128,8 +128,8 @@ absl::StatusOr<ClaimResult> Amplitude(const ClaimSetting& setting) {
 // the moment needs.
 absl::StatusOr<ClaimResult> Relaxed(const ClaimSetting& setting) {
   const std::vector<double> penalties =
-      setting.level == Level::kFull ? std::vector<double>{1e6, 1e7, 1e8, 1e9}
-                                    : std::vector<double>{1e6, 1e7, 1e8};
+      IsFull(setting) ? std::vector<double>{1e6, 1e7, 1e8, 1e9}
+                      : std::vector<double>{1e6, 1e7, 1e8};
   std::vector<double> distances;
   ClaimResult result;
   for (const double penalty : penalties) {

@@ -17,7 +17,7 @@
 namespace emmy::verification {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using OrderedJson = nlohmann::ordered_json;
 namespace fs = std::filesystem;
 
 constexpr size_t kMaxBytes = size_t{16} << 20;
@@ -44,8 +44,8 @@ absl::StatusOr<std::vector<std::string>> DataFiles(const std::string& root) {
 
 // A member of the file that says what it is; sources may be an object whose
 // member `published` is the sentence.
-absl::StatusOr<std::string> Said(const std::string& path, const Json& json,
-                                 const char* key) {
+absl::StatusOr<std::string> Said(const std::string& path,
+                                 const OrderedJson& json, const char* key) {
   const auto member = json.find(key);
   if (member != json.end() && member->is_string()) {
     return member->get<std::string>();
@@ -58,18 +58,20 @@ absl::StatusOr<std::string> Said(const std::string& path, const Json& json,
       absl::StrCat(path, ": /", key, ": expected a text"));
 }
 
-absl::StatusOr<Json> Entry(const std::string& root, const std::string& path) {
+absl::StatusOr<OrderedJson> Entry(const std::string& root,
+                                  const std::string& path) {
   const absl::StatusOr<std::string> text =
       ReadTextFile(absl::StrCat(root, "/", path), kMaxBytes);
   if (!text.ok()) {
     return absl::Status(text.status().code(),
                         absl::StrCat(path, ": ", text.status().message()));
   }
-  const Json json = Json::parse(*text, nullptr, /*allow_exceptions=*/false);
+  const OrderedJson json =
+      OrderedJson::parse(*text, nullptr, /*allow_exceptions=*/false);
   if (!json.is_object()) {
     return absl::DataLossError(absl::StrCat(path, ": not a JSON object"));
   }
-  Json entry;
+  OrderedJson entry;
   entry["file"] = path;
   for (const char* const key : {"kind", "source", "command"}) {
     absl::StatusOr<std::string> value = Said(path, json, key);
@@ -82,9 +84,10 @@ absl::StatusOr<Json> Entry(const std::string& root, const std::string& path) {
 
 std::map<std::string, std::string> HashesByFile(const std::string& manifest) {
   std::map<std::string, std::string> hashes;
-  const Json json = Json::parse(manifest, nullptr, /*allow_exceptions=*/false);
+  const OrderedJson json =
+      OrderedJson::parse(manifest, nullptr, /*allow_exceptions=*/false);
   if (!json.is_object() || !json.contains("files")) return hashes;
-  for (const Json& entry : json["files"]) {
+  for (const OrderedJson& entry : json["files"]) {
     if (!entry.is_object()) continue;
     hashes[entry.value("file", "")] = entry.value("git_hash", "");
   }
@@ -109,12 +112,12 @@ std::string GitBlobHash(std::string_view bytes) {
 absl::StatusOr<std::string> MakeManifest(const std::string& root) {
   const absl::StatusOr<std::vector<std::string>> paths = DataFiles(root);
   if (!paths.ok()) return paths.status();
-  Json json;
+  OrderedJson json;
   json["format"] = "emmy-manifest/1";
   json["command"] = "emmy regenerate --only manifest";
-  json["files"] = Json::array();
+  json["files"] = OrderedJson::array();
   for (const std::string& path : *paths) {
-    absl::StatusOr<Json> entry = Entry(root, path);
+    absl::StatusOr<OrderedJson> entry = Entry(root, path);
     if (!entry.ok()) return entry.status();
     json["files"].push_back(*std::move(entry));
   }

@@ -10,17 +10,17 @@
 namespace emmy::verification {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using OrderedJson = nlohmann::ordered_json;
 
-Json Number(double value) {
+OrderedJson Number(double value) {
   if (std::isfinite(value)) return value;
   if (std::isnan(value)) return "nan";
   return value > 0.0 ? "inf" : "-inf";
 }
 
-Json OutcomeJson(const Outcome& outcome) {
+OrderedJson OutcomeJson(const Outcome& outcome) {
   const Claim& claim = *outcome.claim;
-  Json json;
+  OrderedJson json;
   json["id"] = claim.id;
   json["group"] = claim.group();
   json["sentence"] = claim.sentence;
@@ -33,14 +33,14 @@ Json OutcomeJson(const Outcome& outcome) {
                    {"derivation", claim.bound.derivation}};
   json["pass"] = outcome.pass;
   json["margin"] = Number(outcome.margin);
-  json["values"] = Json::array();
+  json["values"] = OrderedJson::array();
   for (const MetricValue& value : outcome.result.values) {
     json["values"].push_back(
         {{"label", value.label}, {"value", Number(value.value)}});
   }
   json["failure"] = outcome.failure;
   json["notes"] = outcome.result.notes;
-  json["figures"] = Json::array();
+  json["figures"] = OrderedJson::array();
   for (const Figure& figure : outcome.result.figures) {
     json["figures"].push_back({{"title", figure.title},
                                {"image", figure.name + ".svg"},
@@ -56,7 +56,7 @@ Json OutcomeJson(const Outcome& outcome) {
 
 std::string JsonReport(const std::vector<Outcome>& outcomes,
                        const Environment& environment) {
-  Json json;
+  OrderedJson json;
   json["format"] = "emmy-report/1";
   json["pass"] =
       !outcomes.empty() && std::all_of(outcomes.begin(), outcomes.end(),
@@ -71,7 +71,7 @@ std::string JsonReport(const std::vector<Outcome>& outcomes,
                      {"system", environment.system},
                      {"threads", environment.threads}};
   json["command"] = environment.command;
-  json["claims"] = Json::array();
+  json["claims"] = OrderedJson::array();
   for (const Outcome& outcome : outcomes) {
     json["claims"].push_back(OutcomeJson(outcome));
   }

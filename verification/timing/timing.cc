@@ -15,7 +15,7 @@
 namespace emmy::verification {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using OrderedJson = nlohmann::ordered_json;
 
 // Keys of Google Benchmark's that are not counters of ours.
 bool IsOwnKey(const std::string& key) {
@@ -61,7 +61,7 @@ std::string PlainName(const std::string& name) {
   return plain;
 }
 
-void AddRow(const Json& row, Samples* samples) {
+void AddRow(const OrderedJson& row, Samples* samples) {
   samples->label = row.value("label", "");
   if (row.value("error_occurred", false)) {
     samples->error = row.value("error_message", "failed");
@@ -83,11 +83,12 @@ void AddRow(const Json& row, Samples* samples) {
   }
 }
 
-std::string ProcessorText(const Json& context) {
+std::string ProcessorText(const OrderedJson& context) {
   std::string text =
       absl::StrFormat("%d x %d MHz", context.value("num_cpus", 0),
                       context.value("mhz_per_cpu", 0));
-  for (const Json& cache : context.value("caches", Json::array())) {
+  for (const OrderedJson& cache :
+       context.value("caches", OrderedJson::array())) {
     if (cache.value("type", "") == "Instruction") continue;
     absl::StrAppend(&text, ", L", cache.value("level", 0), " ",
                     cache.value("size", 0) / 1024, " KiB");
@@ -95,15 +96,15 @@ std::string ProcessorText(const Json& context) {
   return text;
 }
 
-TimingRun Collect(const Json& json) {
+TimingRun Collect(const OrderedJson& json) {
   TimingRun run;
-  const Json& context = json.at("context");
+  const OrderedJson& context = json.at("context");
   run.date = context.value("date", "");
   run.processor = ProcessorText(context);
   run.program = context.value("emmy", "");
   std::vector<std::string> order;
   std::map<std::string, Samples> all;
-  for (const Json& row : json.at("benchmarks")) {
+  for (const OrderedJson& row : json.at("benchmarks")) {
     if (row.value("run_type", "iteration") != "iteration") continue;
     const std::string name =
         PlainName(row.value("run_name", row.at("name").get<std::string>()));
@@ -146,7 +147,8 @@ absl::StatusOr<TimingRun> ReadTimings(const std::string& path) {
                    std::istreambuf_iterator<char>());
   // Spreads of counters that are zero are written so, which is not JSON.
   absl::StrReplaceAll({{": NaN", ": null"}, {": Infinity", ": null"}}, &text);
-  const Json json = Json::parse(text, nullptr, /*allow_exceptions=*/false);
+  const OrderedJson json =
+      OrderedJson::parse(text, nullptr, /*allow_exceptions=*/false);
   if (json.is_discarded()) {
     return absl::DataLossError(absl::StrCat(path, ": not valid JSON"));
   }
@@ -154,7 +156,7 @@ absl::StatusOr<TimingRun> ReadTimings(const std::string& path) {
   // type in a file that is not ours.
   try {
     return Collect(json);
-  } catch (const Json::exception& error) {
+  } catch (const OrderedJson::exception& error) {
     return absl::DataLossError(absl::StrCat(
         path, ": not written by Google Benchmark: ", error.what()));
   }

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <limits>
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "emmy/integrate/ancf_body_lanes.cc"
@@ -18,14 +17,13 @@
 #include "emmy/integrate/body_lanes-inl.h"
 #include "emmy/numerics/compensated_lanes-inl.h"
 #include "emmy/numerics/four_lanes-inl.h"
+#include "emmy/numerics/unit_roundoff.h"
 #include "emmy/numerics/vector_lanes-inl.h"
 #include "hwy/highway.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace emmy {
 namespace HWY_NAMESPACE {
-
-constexpr double kUnitRoundoff = std::numeric_limits<double>::epsilon() / 2.0;
 
 // A step is one long chain of operations that wait for each other. What the
 // chain need not wait for is taken out of it: halves are carried instead of

@@ -8,11 +8,10 @@
 #include <limits>
 
 #include "emmy/numerics/rotation.h"
+#include "emmy/numerics/unit_roundoff.h"
 
 namespace emmy {
 namespace {
-
-constexpr double kUnitRoundoff = std::numeric_limits<double>::epsilon() / 2.0;
 
 // NaN if any entry is.
 double MaxAbs(const Matrix3d& m) {

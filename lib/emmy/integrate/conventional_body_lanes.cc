@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "emmy/base/double_double.h"
 
@@ -19,6 +18,7 @@
 #include "emmy/integrate/body_lanes-inl.h"
 #include "emmy/numerics/compensated_lanes-inl.h"
 #include "emmy/numerics/four_lanes-inl.h"
+#include "emmy/numerics/unit_roundoff.h"
 #include "hwy/highway.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -72,7 +72,6 @@ struct Increment {
 HWY_INLINE BodyStepResult SolveBody(const ConventionalBodyLanes& body,
                                     const BodyStartNumbers& start,
                                     Increment* increment) {
-  constexpr double kUnitRoundoff = std::numeric_limits<double>::epsilon() / 2.0;
   const Lanes step = Lanes::Set(body.time_step);
   const Lanes half = Lanes::Set(0.5);
   const Lanes w0 = Lanes::Load(start.velocity + kRate);

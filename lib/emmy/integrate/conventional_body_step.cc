@@ -4,10 +4,10 @@
 #include <Eigen/LU>
 #include <array>
 #include <cmath>
-#include <limits>
 
 #include "emmy/base/double_double.h"
 #include "emmy/numerics/rotation.h"
+#include "emmy/numerics/unit_roundoff.h"
 
 namespace emmy {
 
@@ -56,7 +56,6 @@ Vector3d ConventionalBodyStep::ExtendedResidual(
 BodyStepResult ConventionalBodyStep::Solve(
     const ConventionalBodyStart& start, const Vector3d& increment_guess,
     ConventionalBodyIncrement* increment) const {
-  constexpr double kUnitRoundoff = std::numeric_limits<double>::epsilon() / 2.0;
   const Matrix3d& tensor = body_.tensor();
   const auto mean_of = [&start](const Vector3d& change) -> Vector3d {
     return start.angular_velocity +

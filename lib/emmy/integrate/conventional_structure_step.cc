@@ -8,11 +8,10 @@
 #include "absl/status/status.h"
 #include "absl/strings/str_cat.h"
 #include "emmy/numerics/rotation.h"
+#include "emmy/numerics/unit_roundoff.h"
 
 namespace emmy {
 namespace {
-
-constexpr double kUnitRoundoff = std::numeric_limits<double>::epsilon() / 2.0;
 
 // (1 − Hat(a))⁻¹ = (1 + a aᵀ + Hat(a)) / (1 + a·a).
 Matrix3d InverseOneMinusHat(const Vector3d& a) {

@@ -10,11 +10,10 @@
 #include "absl/strings/str_cat.h"
 #include "emmy/integrate/exact_tangent.h"
 #include "emmy/numerics/rotation.h"
+#include "emmy/numerics/unit_roundoff.h"
 
 namespace emmy {
 namespace {
-
-constexpr double kUnitRoundoff = std::numeric_limits<double>::epsilon() / 2.0;
 
 // One, or where the structure is large up to one a block.
 size_t NumThreads(const Structure& structure, int wanted) {

@@ -10,11 +10,10 @@
 #include "emmy/integrate/joint_graph.h"
 #include "emmy/integrate/joint_net.h"
 #include "emmy/integrate/joint_system.h"
+#include "emmy/numerics/unit_roundoff.h"
 
 namespace emmy {
 namespace {
-
-constexpr double kUnitRoundoff = std::numeric_limits<double>::epsilon() / 2.0;
 
 // A fresh matrix needs about half of that.
 constexpr int kManyIterations = 10;

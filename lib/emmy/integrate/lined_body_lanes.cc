@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <vector>
 
 #include "emmy/integrate/body_numbers.h"
@@ -116,6 +115,7 @@ void InvertSmall(int n, const double (&matrix)[4][4], double (&inverse)[4][4]) {
 //
 #include "emmy/numerics/compensated_lanes-inl.h"
 #include "emmy/numerics/four_lanes-inl.h"
+#include "emmy/numerics/unit_roundoff.h"
 #include "emmy/numerics/vector_lanes-inl.h"
 #include "hwy/highway.h"
 
@@ -244,7 +244,6 @@ HWY_INLINE double Sum(const Lanes& a) {
 BodyStepResult SolveLined(const Constants& constants,
                           const BodyStartNumbers& body, const NodeState& nodes,
                           LinedIncrement* increment) {
-  constexpr double kUnitRoundoff = std::numeric_limits<double>::epsilon() / 2.0;
   const double dt = constants.time_step;
   const int count = constants.num_lines;
   const Lanes step = Lanes::Set(dt);

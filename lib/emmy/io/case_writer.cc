@@ -11,7 +11,7 @@
 namespace emmy {
 namespace {
 
-using Json = nlohmann::ordered_json;  // Keys in the order of the format.
+using OrderedJson = nlohmann::ordered_json;  // Keys in the order of the format.
 
 // One function for each alternative of a variant.
 template <typename... Functions>
@@ -21,33 +21,33 @@ struct Overloaded : Functions... {
 template <typename... Functions>
 Overloaded(Functions...) -> Overloaded<Functions...>;
 
-Json ToJson(const Vector3d& v) { return {v.x(), v.y(), v.z()}; }
+OrderedJson ToJson(const Vector3d& v) { return {v.x(), v.y(), v.z()}; }
 
-Json ToJson(const Matrix3d& m) {
+OrderedJson ToJson(const Matrix3d& m) {
   return {ToJson(Vector3d(m.row(0))), ToJson(Vector3d(m.row(1))),
           ToJson(Vector3d(m.row(2)))};
 }
 
-Json ToJson(const PointDescription& point) {
+OrderedJson ToJson(const PointDescription& point) {
   return std::visit(
-      Overloaded{[](const BodyPoint& p) -> Json {
+      Overloaded{[](const BodyPoint& p) -> OrderedJson {
                    return {{"body", p.body}, {"point", ToJson(p.point)}};
                  },
-                 [](const NodePoint& p) -> Json {
+                 [](const NodePoint& p) -> OrderedJson {
                    return {{"node", p.node}};
                  },
-                 [](const GroundPoint& p) -> Json {
+                 [](const GroundPoint& p) -> OrderedJson {
                    return {{"ground", ToJson(p.position)}};
                  }},
       point);
 }
 
-Json ToJson(const std::array<PointDescription, 2>& points) {
-  return Json::array({ToJson(points[0]), ToJson(points[1])});
+OrderedJson ToJson(const std::array<PointDescription, 2>& points) {
+  return OrderedJson::array({ToJson(points[0]), ToJson(points[1])});
 }
 
-Json ToJson(const RigidBodyDescription& body) {
-  Json json = {
+OrderedJson ToJson(const RigidBodyDescription& body) {
+  OrderedJson json = {
       {"name", body.name},
       {"formulation",
        body.formulation == Formulation::kAncf ? "ancf" : "conventional"}};
@@ -80,10 +80,10 @@ Json ToJson(const RigidBodyDescription& body) {
   return json;
 }
 
-Json ToJson(const NodeDescription& node) {
-  Json json = {{"name", node.name},
-               {"mass", node.mass},
-               {"position", ToJson(node.position)}};
+OrderedJson ToJson(const NodeDescription& node) {
+  OrderedJson json = {{"name", node.name},
+                      {"mass", node.mass},
+                      {"position", ToJson(node.position)}};
   if (const auto* velocity = std::get_if<Vector3d>(&node.velocity)) {
     json["velocity"] = ToJson(*velocity);
   } else {
@@ -93,41 +93,41 @@ Json ToJson(const NodeDescription& node) {
   return json;
 }
 
-Json ToJson(const TrussDescription& truss) {
-  Json json = {{"name", truss.name},
-               {"ends", ToJson(truss.ends)},
-               {"area", truss.area},
-               {"density", truss.density},
-               {"young_modulus", truss.young_modulus}};
+OrderedJson ToJson(const TrussDescription& truss) {
+  OrderedJson json = {{"name", truss.name},
+                      {"ends", ToJson(truss.ends)},
+                      {"area", truss.area},
+                      {"density", truss.density},
+                      {"young_modulus", truss.young_modulus}};
   if (truss.length.has_value()) json["length"] = *truss.length;
   json["tension_only"] = truss.tension_only;
   return json;
 }
 
-Json ToJson(const SpringDescription& spring) {
+OrderedJson ToJson(const SpringDescription& spring) {
   return {{"name", spring.name},
           {"ends", ToJson(spring.ends)},
           {"stiffness", spring.stiffness},
           {"length", spring.length}};
 }
 
-Json ToJson(const std::variant<ForceLoad, TorqueLoad>& load) {
+OrderedJson ToJson(const std::variant<ForceLoad, TorqueLoad>& load) {
   return std::visit(
       Overloaded{
-          [](const ForceLoad& l) -> Json {
+          [](const ForceLoad& l) -> OrderedJson {
             return {{"point", ToJson(l.point)}, {"force", ToJson(l.force)}};
           },
-          [](const TorqueLoad& l) -> Json {
+          [](const TorqueLoad& l) -> OrderedJson {
             return {{"body", l.body}, {"torque", ToJson(l.torque)}};
           }},
       load);
 }
 
-Json ToJson(const IntegratorSettings& settings) {
-  Json json = {{"method", "energy_momentum"},
-               {"order", settings.order},
-               {"time_step", settings.time_step},
-               {"duration", settings.duration}};
+OrderedJson ToJson(const IntegratorSettings& settings) {
+  OrderedJson json = {{"method", "energy_momentum"},
+                      {"order", settings.order},
+                      {"time_step", settings.time_step},
+                      {"duration", settings.duration}};
   if (settings.tolerance.has_value()) {
     json["tolerance"] = *settings.tolerance;
   } else {
@@ -137,14 +137,14 @@ Json ToJson(const IntegratorSettings& settings) {
 }
 
 template <typename T>
-void AddList(const char* key, const std::vector<T>& list, Json* json) {
+void AddList(const char* key, const std::vector<T>& list, OrderedJson* json) {
   for (const T& element : list) (*json)[key].push_back(ToJson(element));
 }
 
 }  // namespace
 
 std::string WriteCase(const Case& value) {
-  Json json = {{"format", kCaseFormat}, {"name", value.name}};
+  OrderedJson json = {{"format", kCaseFormat}, {"name", value.name}};
   if (!value.purpose.empty()) json["purpose"] = value.purpose;
   json["gravity"] = ToJson(value.model.gravity);
   AddList("rigid_bodies", value.model.rigid_bodies, &json);

@@ -9,13 +9,13 @@
 namespace emmy {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using OrderedJson = nlohmann::ordered_json;
 
-Json ToJson(double x) { return x; }
-Json ToJson(const Vector3d& v) { return {v.x(), v.y(), v.z()}; }
+OrderedJson ToJson(double x) { return x; }
+OrderedJson ToJson(const Vector3d& v) { return {v.x(), v.y(), v.z()}; }
 
 template <typename Record>
-Json ToJson(const Record& record) {
+OrderedJson ToJson(const Record& record) {
   return {{"initial", ToJson(record.initial)},
           {"final", ToJson(record.final)},
           {"max_error", record.max_error},
@@ -40,9 +40,9 @@ std::string StatusName(RunStatus status) {
 
 std::string WriteSummary(const RunSummary& summary) {
   const BuildInfo build = GetBuildInfo();
-  Json json = {{"format", "emmy-summary/1"},
-               {"case", summary.case_name},
-               {"status", StatusName(summary.status)}};
+  OrderedJson json = {{"format", "emmy-summary/1"},
+                      {"case", summary.case_name},
+                      {"status", StatusName(summary.status)}};
   if (!summary.message.empty()) json["message"] = summary.message;
   json["steps"] = summary.steps;
   json["time"] = summary.time;
