@@ -22,6 +22,12 @@ Matrix3d PackMatrix(const double* pack, int block, size_t lane) {
   return m;
 }
 
+void SetPackMatrix(const Matrix3d& m, double* pack, int block, size_t lane) {
+  for (int c = 0; c < 3; ++c) {
+    SetPackVector(m.col(c), pack, block + 3 * c, lane);
+  }
+}
+
 Matrix3d PackSymmetric(const double* pack, int block, size_t lane) {
   Matrix3d m;
   for (int i = 0; i < 3; ++i) {

@@ -42,6 +42,7 @@ inline void SetPackVector(const Vector3d& v, double* pack, int block,
   for (int i = 0; i < 3; ++i) PackEntry(pack, block + i, lane) = v(i);
 }
 Matrix3d PackMatrix(const double* pack, int block, size_t lane);
+void SetPackMatrix(const Matrix3d& m, double* pack, int block, size_t lane);
 Matrix3d PackSymmetric(const double* pack, int block, size_t lane);
 void SetPackSymmetric(const Matrix3d& m, double* pack, int block, size_t lane);
 

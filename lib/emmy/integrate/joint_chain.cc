@@ -166,17 +166,20 @@ void JointChain::FactorizeSeparators() {
   for (size_t i = 0; i < separators_.size(); ++i) {
     Separator& separator = separators_[i];
     const size_t lane = i % kLanes;
-    Matrix3d diagonal = PackSymmetric(Piece(i), P::kRightMatrix, lane) +
+    Matrix3d diagonal = PackMatrix(Piece(i), P::kRightMatrix, lane) +
                         shift_ * Matrix3d::Identity() - taken;
-    if (i + 1 < separators_.size()) {
-      diagonal += PackSymmetric(Piece(i + 1), P::kLeftMatrix, (i + 1) % kLanes);
+    if (i + 1 == separators_.size()) {
+      separator.inverse = diagonal.inverse();
+      break;
     }
+    const double* const next = Piece(i + 1);
+    const size_t next_lane = (i + 1) % kLanes;
+    diagonal += PackMatrix(next, P::kLeftMatrix, next_lane);
     separator.inverse = diagonal.inverse();
-    if (i + 1 < separators_.size()) {
-      const Matrix3d tie = PackMatrix(Piece(i + 1), P::kTie, (i + 1) % kLanes);
-      separators_[i + 1].tie.noalias() = tie * separator.inverse;
-      taken.noalias() = separators_[i + 1].tie * tie.transpose();
-    }
+    separators_[i + 1].below.noalias() =
+        PackMatrix(next, P::kBelow, next_lane) * separator.inverse;
+    separators_[i + 1].above = PackMatrix(next, P::kAbove, next_lane);
+    taken.noalias() = separators_[i + 1].below * separators_[i + 1].above;
   }
 }
 
@@ -196,16 +199,16 @@ void JointChain::SolveSeparators() {
       rate += PackVector(next, P::kLeftRate, next_lane);
       rest += PackVector(next, P::kLeftRest, next_lane);
     }
-    before = (side - 2.0 * (rate + rest)) - separators_[i].tie * before;
+    before = (side - 2.0 * (rate + rest)) - separators_[i].below * before;
     separators_[i].step = before;
   }
   Vector3d after = Vector3d::Zero();
   for (size_t i = separators_.size(); i-- > 0;) {
     Separator& separator = separators_[i];
-    Vector3d step = separator.inverse * separator.step;
     if (i + 1 < separators_.size()) {
-      step -= separators_[i + 1].tie.transpose() * after;
+      separator.step -= separators_[i + 1].above * after;
     }
+    const Vector3d step = separator.inverse * separator.step;
     separator.step = after = step;
     SetPackVector(step, Piece(i), P::kRightStep, i % kLanes);
     if (i + 1 < separators_.size()) {

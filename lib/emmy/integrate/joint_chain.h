@@ -1,11 +1,10 @@
 // A row of ANCF bodies, each joined to the next by a shared point.
 //
-// Correction of (EM-9) with the bodies eliminated, K of (EM-6) for each:
+// Correction of (EM-9) with the bodies eliminated, K of (EM-17) for each:
 //   (S + κ) δ(Δt λ) = G K⁻¹ r − 2 G w̄,  S = G K⁻¹ Gᵀ
 //   δw = K⁻¹ r − K⁻¹ Gᵀ δ(Δt λ)                                     (EM-14)
-// S has 3×3 blocks, a body's being Q Ŝ Qᵀ with its frame Q between mid-step and
-// end and Ŝ constant, and is block tridiagonal. It is factorised in the first
-// iteration of each step.
+// S has 3×3 blocks, is block tridiagonal and, by the turn of the step, not
+// symmetric. It is factorised in the first iteration of each step.
 //
 // The row is cut into pieces, eight of which are eliminated side by side
 // (joint_chain_kernel.h); the joints between pieces come last.      (EM-16)
@@ -42,10 +41,11 @@ class JointChain : public JointSystem {
   int num_factorizations() const override { return num_factorizations_; }
 
  private:
-  // A joint between pieces: its block of the factor L D Lᵀ and its solution.
+  // A joint between pieces: its part of the factors L U, and its solution.
   struct Separator {
-    Matrix3d inverse = Matrix3d::Zero();  // D⁻¹
-    Matrix3d tie = Matrix3d::Zero();      // To the one before; then L.
+    Matrix3d inverse = Matrix3d::Zero();  // Of U's block.
+    Matrix3d below = Matrix3d::Zero();    // L's, column of the one before.
+    Matrix3d above = Matrix3d::Zero();    // U's, row of the one before.
     Vector3d step = Vector3d::Zero();
   };
 

@@ -54,9 +54,6 @@ HWY_INLINE Symmetric GetSymmetric(const double* p, int k) {
   for (int i = 0; i < 6; ++i) s.v[i] = Get(p, k + i);
   return s;
 }
-HWY_INLINE void PutSymmetric(const Symmetric& s, double* p, int k) {
-  for (int i = 0; i < 6; ++i) Put(s.v[i], p, k + i);
-}
 HWY_INLINE M3 GetMatrix(const double* p, int k) {
   return {{Get3(p, k), Get3(p, k + 3), Get3(p, k + 6)}};
 }
@@ -67,10 +64,6 @@ HWY_INLINE void PutMatrix(const M3& m, double* p, int k) {
 HWY_INLINE V3 Zero3() {
   const V zero = hn::Zero(Tag());
   return {{zero, zero, zero}};
-}
-HWY_INLINE Symmetric ZeroSymmetric() {
-  const V zero = hn::Zero(Tag());
-  return {{zero, zero, zero, zero, zero, zero}};
 }
 HWY_INLINE V3 Plus(const V3& a, const V3& b) {
   return {{a.v[0] + b.v[0], a.v[1] + b.v[1], a.v[2] + b.v[2]}};
@@ -107,16 +100,6 @@ HWY_INLINE M3 Times(const Symmetric& s, const M3& m) {
   return {
       {Times(s, m.column[0]), Times(s, m.column[1]), Times(s, m.column[2])}};
 }
-HWY_INLINE Symmetric Plus(const Symmetric& a, const Symmetric& b) {
-  Symmetric s;
-  for (int i = 0; i < 6; ++i) s.v[i] = a.v[i] + b.v[i];
-  return s;
-}
-HWY_INLINE Symmetric Minus(const Symmetric& a, const Symmetric& b) {
-  Symmetric s;
-  for (int i = 0; i < 6; ++i) s.v[i] = a.v[i] - b.v[i];
-  return s;
-}
 // The lower triangle of Aᵀ B, known to be symmetric.
 HWY_INLINE Symmetric SymmetricProduct(const M3& a, const M3& b) {
   return {{Dot(a.column[0], b.column[0]), Dot(a.column[1], b.column[0]),
@@ -141,16 +124,36 @@ HWY_INLINE Symmetric Turned(const M3& q, const Symmetric& s) {
   const M3 t = Transpose(q);
   return SymmetricProduct(t, Times(s, t));
 }
-HWY_INLINE Symmetric Inverse(const Symmetric& s) {
-  const V c00 = s.v[2] * s.v[5] - s.v[4] * s.v[4];
-  const V c10 = s.v[3] * s.v[4] - s.v[1] * s.v[5];
-  const V c20 = s.v[1] * s.v[4] - s.v[2] * s.v[3];
-  const V determinant = s.v[0] * c00 + s.v[1] * c10 + s.v[3] * c20;
-  const V inverse = hn::Set(Tag(), 1.0) / determinant;
-  return {{inverse * c00, inverse * c10,
-           inverse * (s.v[0] * s.v[5] - s.v[3] * s.v[3]), inverse * c20,
-           inverse * (s.v[1] * s.v[3] - s.v[0] * s.v[4]),
-           inverse * (s.v[0] * s.v[2] - s.v[1] * s.v[1])}};
+HWY_INLINE M3 Plus(const M3& a, const M3& b) {
+  return {{Plus(a.column[0], b.column[0]), Plus(a.column[1], b.column[1]),
+           Plus(a.column[2], b.column[2])}};
+}
+HWY_INLINE M3 Minus(const M3& a, const M3& b) {
+  return {{Minus(a.column[0], b.column[0]), Minus(a.column[1], b.column[1]),
+           Minus(a.column[2], b.column[2])}};
+}
+HWY_INLINE M3 Times(const M3& a, const M3& b) {
+  return {
+      {Times(a, b.column[0]), Times(a, b.column[1]), Times(a, b.column[2])}};
+}
+// Q M Qᵀ.
+HWY_INLINE M3 Turned(const M3& q, const M3& m) {
+  return TimesTransposed(Times(q, m), q);
+}
+// s + Hat(a)
+HWY_INLINE M3 WithSkew(const Symmetric& s, const V3& a) {
+  return {{{{s.v[0], s.v[1] + a.v[2], s.v[3] - a.v[1]}},
+           {{s.v[1] - a.v[2], s.v[2], s.v[4] + a.v[0]}},
+           {{s.v[3] + a.v[1], s.v[4] - a.v[0], s.v[5]}}}};
+}
+HWY_INLINE M3 Inverse(const M3& m) {
+  const V3 bc = Cross(m.column[1], m.column[2]);
+  const V3 ca = Cross(m.column[2], m.column[0]);
+  const V3 ab = Cross(m.column[0], m.column[1]);
+  const V inverse = hn::Set(Tag(), 1.0) / Dot(m.column[0], bc);
+  // Rows of the inverse.
+  return Transpose(
+      {{Times(inverse, bc), Times(inverse, ca), Times(inverse, ab)}});
 }
 
 // (EM-6): column i of y and x belongs to eᵢ, row j to the axis j.
@@ -172,6 +175,54 @@ HWY_INLINE M3 SolveTangent(const double* constants, const M3& y) {
         inverse * (Get(constants, C::kMoment + m) * y.column[n].v[m] - shear);
   }
   return x;
+}
+
+// What is constant in the frame Q only without it (EM-17).
+struct Deviation {
+  V3 turn;      // φ
+  V strain[6];  // ε̄
+};
+
+// s v
+HWY_INLINE V3 StrainTimes(const V* strain, const V3& v) {
+  const V half = hn::Set(Tag(), 0.5);
+  const V s01 = half * strain[3];
+  const V s12 = half * strain[4];
+  const V s20 = half * strain[5];
+  return {{strain[0] * v.v[0] + s01 * v.v[1] + s20 * v.v[2],
+           s01 * v.v[0] + strain[1] * v.v[1] + s12 * v.v[2],
+           s20 * v.v[0] + s12 * v.v[1] + strain[2] * v.v[2]}};
+}
+
+// D v
+HWY_INLINE V3 Deviate(const Deviation& d, const V3& v) {
+  const V two = hn::Set(Tag(), 2.0);
+  return Plus(v, Minus(Cross(d.turn, v), Times(two, StrainTimes(d.strain, v))));
+}
+
+// (K⁻¹ − K⁻¹ P K⁻¹) y
+HWY_INLINE M3 SolveTangent(const double* constants, const M3& y,
+                           const Deviation& d, V quarter_time) {
+  using C = BodyConstants;
+  constexpr int kWith[3][3] = {{0, 3, 5}, {3, 1, 4}, {5, 4, 2}};
+  const M3 x = SolveTangent(constants, y);
+  const V two = hn::Set(Tag(), 2.0);
+  V stress[6];
+  for (int k = 0; k < 6; ++k) {
+    stress[k] =
+        quarter_time * (Get(constants, C::kStiffness + k) * d.strain[k]);
+  }
+  M3 moved;
+  for (int i = 0; i < 3; ++i) {
+    const V3 inertia =
+        Minus(Cross(d.turn, x.column[i]), StrainTimes(d.strain, x.column[i]));
+    moved.column[i] = Times(two * Get(constants, C::kMoment + i), inertia);
+    for (int j = 0; j < 3; ++j) {
+      moved.column[i] =
+          Plus(moved.column[i], Times(stress[kWith[i][j]], x.column[j]));
+    }
+  }
+  return Minus(x, SolveTangent(constants, moved));
 }
 
 // (EM-1), for x̄, e₁, e₂, e₃.
@@ -267,6 +318,74 @@ HWY_INLINE void AddSums(const double* constants, const double* start,
   }
 }
 
+// φ, a quarter of the step's turn, in the frame.
+HWY_INLINE V3 QuarterTurn(const M3& frame, const Motion& m) {
+  const V eighth = hn::Set(Tag(), 0.125);
+  V3 turn;
+  for (int i = 0; i < 3; ++i) {
+    const int j = (i + 1) % 3;
+    const int k = (i + 2) % 3;
+    turn.v[i] = eighth * (Dot(frame.column[k], m.increment[1 + j]) -
+                          Dot(frame.column[j], m.increment[1 + k]));
+  }
+  return turn;
+}
+
+HWY_INLINE void PutDeviation(const Deviation& d, double* scratch) {
+  Put3(d.turn, scratch, BodyScratchBlock::kTurn);
+  for (int k = 0; k < 6; ++k) {
+    Put(d.strain[k], scratch, BodyScratchBlock::kStrain + k);
+  }
+}
+HWY_INLINE Deviation GetDeviation(const double* scratch) {
+  Deviation d;
+  d.turn = Get3(scratch, BodyScratchBlock::kTurn);
+  for (int k = 0; k < 6; ++k) {
+    d.strain[k] = Get(scratch, BodyScratchBlock::kStrain + k);
+  }
+  return d;
+}
+
+// What a body gives to the block of one joint, (EM-15) with (EM-17).
+HWY_INLINE M3 OwnBlock(const double* constants, int compliance, int of_turn,
+                       const M3& frame, const Deviation& d) {
+  Symmetric own = GetSymmetric(constants, compliance);
+  const int of = compliance == BodyConstants::kRightCompliance
+                     ? BodyConstants::kRightStrain
+                     : BodyConstants::kLeftStrain;
+  for (int k = 0; k < 6; ++k) {
+    for (int i = 0; i < 6; ++i) {
+      own.v[i] = own.v[i] + d.strain[k] * Get(constants, of + 6 * k + i);
+    }
+  }
+  return WithSkew(Turned(frame, own),
+                  Times(frame, Times(GetMatrix(constants, of_turn), d.turn)));
+}
+
+// And to those of its two joints with each other: row right and column left,
+// row left and column right.
+HWY_INLINE void CrossBlocks(const double* constants, const M3& frame,
+                            const Deviation& d, M3* below, M3* above) {
+  using C = BodyConstants;
+  M3 even = GetMatrix(constants, C::kCrossCompliance);
+  for (int k = 0; k < 6; ++k) {
+    for (int c = 0; c < 3; ++c) {
+      even.column[c] = Plus(
+          even.column[c],
+          Times(d.strain[k], Get3(constants, C::kCrossStrain + 9 * k + 3 * c)));
+    }
+  }
+  M3 odd;
+  for (int c = 0; c < 3; ++c) {
+    odd.column[c] = Plus(
+        Plus(Times(d.turn.v[0], Get3(constants, C::kCrossTurn + 3 * c)),
+             Times(d.turn.v[1], Get3(constants, C::kCrossTurn + 9 + 3 * c))),
+        Times(d.turn.v[2], Get3(constants, C::kCrossTurn + 18 + 3 * c)));
+  }
+  *below = Turned(frame, Plus(even, odd));
+  *above = Turned(frame, Transpose(Minus(even, odd)));
+}
+
 template <ForwardWork kWork, bool kRow>
 HWY_INLINE void Forward(const ChainGroup& g, int lane) {
   using C = BodyConstants;
@@ -291,11 +410,14 @@ HWY_INLINE void Forward(const ChainGroup& g, int lane) {
   V3 side = Zero3();
   V3 rate = Zero3();
   V3 rest = Zero3();
-  Symmetric matrix = ZeroSymmetric();
-  // Of the joint at the left end of the piece.
+  const M3 zero_matrix = {{Zero3(), Zero3(), Zero3()}};
+  M3 matrix = zero_matrix;
+  // Of the joint at the left end of the piece; with its column and row in the
+  // equations of the joint in hand.
   V3 end_side = Zero3();
-  Symmetric end_matrix = ZeroSymmetric();
-  M3 tie = {{Zero3(), Zero3(), Zero3()}};  // C
+  M3 end_matrix = zero_matrix;
+  M3 end_column = zero_matrix;
+  M3 end_row = zero_matrix;
 
   for (int t = 0; t < g.length; ++t) {
     const double* const constants = g.constants[t] + lane;
@@ -350,12 +472,14 @@ HWY_INLINE void Forward(const ChainGroup& g, int lane) {
       }
     }
     // (ANCF-6) with mean vectors and mean strain.
+    Deviation deviation;
     V stress[6];
     StrainIncrement(m, stress);
     for (int k = 0; k < 6; ++k) {
       const V mean =
           Get(start, B::kStrain + k) +
           (Get(start, B::kStrainCompensation + k) + half * stress[k]);
+      deviation.strain[k] = mean;
       stress[k] = Get(constants, C::kStiffness + k) * mean;
     }
     const V3& e1 = m.mean[1];
@@ -396,27 +520,42 @@ HWY_INLINE void Forward(const ChainGroup& g, int lane) {
     AddSums<kWork>(constants, start, m, residual, magnitude, load, &sums);
     left_impulse = impulse;
 
-    // u: along ē, then along the vectors of the end, see (EM-6).
-    const M3 mean = {{m.mean[1], m.mean[2], m.mean[3]}};
-    M3 end;
+    // u = K⁻¹ r.
     M3 frame;
     for (int i = 0; i < 3; ++i) {
-      end.column[i] = Plus(mean.column[i], Times(half, m.increment[1 + i]));
-      frame.column[i] =
-          Plus(mean.column[i], Times(quarter, m.increment[1 + i]));
+      frame.column[i] = Plus(m.mean[1 + i], Times(quarter, m.increment[1 + i]));
     }
+    PutMatrix(frame, scratch, BodyScratchBlock::kFrame);
     V3 u[4];
     u[0] = Times(Get(constants, C::kInverseMass), residual[0]);
-    M3 along;
-    for (int i = 0; i < 3; ++i) {
-      along.column[i] = TransposeTimes(mean, residual[1 + i]);
+    if constexpr (kRow) {
+      deviation.turn = QuarterTurn(frame, m);
+      PutDeviation(deviation, scratch);
+      M3 along;
+      for (int i = 0; i < 3; ++i) {
+        along.column[i] =
+            Deviate(deviation, TransposeTimes(frame, residual[1 + i]));
+      }
+      const M3 solved =
+          SolveTangent(constants, along, deviation, dt * dt * quarter);
+      for (int i = 0; i < 3; ++i) {
+        u[1 + i] = Times(frame, Deviate(deviation, solved.column[i]));
+      }
+    } else {
+      // Along ē, then along the vectors of the end, see (EM-6).
+      const M3 mean = {{m.mean[1], m.mean[2], m.mean[3]}};
+      M3 end;
+      M3 along;
+      for (int i = 0; i < 3; ++i) {
+        end.column[i] = Plus(mean.column[i], Times(half, m.increment[1 + i]));
+        along.column[i] = TransposeTimes(mean, residual[1 + i]);
+      }
+      const M3 solved = SolveTangent(constants, along);
+      for (int i = 0; i < 3; ++i) u[1 + i] = Times(end, solved.column[i]);
     }
-    const M3 solved = SolveTangent(constants, along);
-    for (int i = 0; i < 3; ++i) u[1 + i] = Times(end, solved.column[i]);
     for (int a = 0; a < 4; ++a) {
       Put3(u[a], scratch, BodyScratchBlock::kCorrection + 3 * a);
     }
-    PutMatrix(frame, scratch, BodyScratchBlock::kFrame);
     if constexpr (!kRow) continue;
 
     // What this body gives to the joints on either side.
@@ -444,56 +583,52 @@ HWY_INLINE void Forward(const ChainGroup& g, int lane) {
       Put3(left_rate, piece, P::kLeftRate);
       Put3(left_rest, piece, P::kLeftRest);
       if constexpr (kFactorize) {
-        end_matrix = Turned(frame, GetSymmetric(constants, C::kLeftCompliance));
-        const M3 cross = GetMatrix(constants, C::kCrossCompliance);
-        const M3 turned = {{Times(frame, cross.column[0]),
-                            Times(frame, cross.column[1]),
-                            Times(frame, cross.column[2])}};
-        tie = TimesTransposed(turned, frame);
-        matrix = Turned(frame, GetSymmetric(constants, C::kRightCompliance));
+        end_matrix = OwnBlock(constants, C::kLeftCompliance, C::kLeftTurn,
+                              frame, deviation);
+        matrix = OwnBlock(constants, C::kRightCompliance, C::kRightTurn, frame,
+                          deviation);
+        CrossBlocks(constants, frame, deviation, &end_column, &end_row);
       }
       side = right_side;
     } else {
       // The joint on the left is complete.
       const V3 closing = Plus(Plus(rate, left_rate), Plus(rest, left_rest));
       const V3 y = Minus(Plus(side, left_side), Times(two, closing));
-      Put3(y, left_scratch, BodyScratchBlock::kJoint);
+      M3 inverse;
+      M3 below;
+      M3 at_start;
       if constexpr (kFactorize) {
-        Symmetric diagonal = Plus(
-            matrix, Turned(frame, GetSymmetric(constants, C::kLeftCompliance)));
-        diagonal.v[0] = diagonal.v[0] + shift;
-        diagonal.v[2] = diagonal.v[2] + shift;
-        diagonal.v[5] = diagonal.v[5] + shift;
-        const Symmetric inverse = Inverse(diagonal);
-        const M3 cross = GetMatrix(constants, C::kCrossCompliance);
-        const M3 turned = {{Times(frame, cross.column[0]),
-                            Times(frame, cross.column[1]),
-                            Times(frame, cross.column[2])}};
-        // Lᵀ = D⁻¹ Bᵀ, B the block of this joint and the next.
-        const M3 block = Transpose(TimesTransposed(turned, frame));
-        const M3 next = Times(inverse, block);
-        const M3 start_tie = Times(inverse, tie);  // Z
-        PutSymmetric(inverse, factor, JointFactorBlock::kInverse);
+        M3 diagonal = Plus(matrix, OwnBlock(constants, C::kLeftCompliance,
+                                            C::kLeftTurn, frame, deviation));
+        for (int i = 0; i < 3; ++i) {
+          diagonal.column[i].v[i] = diagonal.column[i].v[i] + shift;
+        }
+        M3 above;
+        CrossBlocks(constants, frame, deviation, &below, &above);
+        inverse = Inverse(diagonal);
+        at_start = end_row;
+        const M3 next = Times(inverse, above);
+        const M3 start_tie = Times(inverse, end_column);
+        PutMatrix(inverse, factor, JointFactorBlock::kInverse);
+        PutMatrix(below, factor, JointFactorBlock::kBelow);
+        PutMatrix(at_start, factor, JointFactorBlock::kAtStart);
         PutMatrix(next, factor, JointFactorBlock::kNext);
         PutMatrix(start_tie, factor, JointFactorBlock::kStart);
-        end_matrix = Minus(end_matrix, SymmetricProduct(tie, start_tie));
-        M3 next_tie;
-        for (int c = 0; c < 3; ++c) {
-          next_tie.column[c] =
-              Minus(Zero3(), TransposeTimes(next, tie.column[c]));
-        }
-        tie = next_tie;
-        matrix =
-            Minus(Turned(frame, GetSymmetric(constants, C::kRightCompliance)),
-                  SymmetricProduct(block, next));
-        side = Minus(right_side, TransposeTimes(next, y));
-        end_side = Minus(end_side, TransposeTimes(start_tie, y));
+        matrix = Minus(OwnBlock(constants, C::kRightCompliance, C::kRightTurn,
+                                frame, deviation),
+                       Times(below, next));
+        end_matrix = Minus(end_matrix, Times(end_row, start_tie));
+        end_column = Minus(zero_matrix, Times(below, start_tie));
+        end_row = Minus(zero_matrix, Times(end_row, next));
       } else {
-        const M3 next = GetMatrix(factor, JointFactorBlock::kNext);
-        const M3 start_tie = GetMatrix(factor, JointFactorBlock::kStart);
-        side = Minus(right_side, TransposeTimes(next, y));
-        end_side = Minus(end_side, TransposeTimes(start_tie, y));
+        inverse = GetMatrix(factor, JointFactorBlock::kInverse);
+        below = GetMatrix(factor, JointFactorBlock::kBelow);
+        at_start = GetMatrix(factor, JointFactorBlock::kAtStart);
       }
+      const V3 solution = Times(inverse, y);
+      Put3(solution, left_scratch, BodyScratchBlock::kJoint);
+      side = Minus(right_side, Times(below, solution));
+      end_side = Minus(end_side, Times(at_start, solution));
     }
     rate = right_rate;
     rest = right_rest;
@@ -506,9 +641,10 @@ HWY_INLINE void Forward(const ChainGroup& g, int lane) {
     Put3(Plus(Get3(piece, P::kLeftSide), end_side), piece, P::kLeftSide);
   }
   if constexpr (kRow && kFactorize) {
-    PutSymmetric(matrix, piece, P::kRightMatrix);
-    PutSymmetric(end_matrix, piece, P::kLeftMatrix);
-    PutMatrix(tie, piece, P::kTie);
+    PutMatrix(matrix, piece, P::kRightMatrix);
+    PutMatrix(end_matrix, piece, P::kLeftMatrix);
+    PutMatrix(end_column, piece, P::kBelow);
+    PutMatrix(end_row, piece, P::kAbove);
   }
   if constexpr (kFactorize) {
     Put(sums.energy, piece, P::kEnergy);
@@ -525,11 +661,10 @@ HWY_INLINE void Forward(const ChainGroup& g, int lane) {
   }
 }
 
-// δw = u − K⁻¹ P, with P for x̄ and, in the body's frame, for the eᵢ.
+// δw = u − K⁻¹ P, with M times it for x̄ and along the frame for the eᵢ.
 HWY_INLINE void CorrectBody(const double* constants, const double* scratch,
-                            const M3& frame, const V3& centre, const M3& load,
+                            const M3& frame, const V3& centre, const M3& solved,
                             double* iterate, V* largest, V* sum) {
-  const M3 solved = SolveTangent(constants, load);
   V3 change[4];
   change[0] = Times(Get(constants, BodyConstants::kInverseMass), centre);
   for (int i = 0; i < 3; ++i) change[1 + i] = Times(frame, solved.column[i]);
@@ -549,6 +684,7 @@ HWY_INLINE void Backward(const ChainGroup& g, int lane) {
   double* const piece = g.piece + lane;
   V3 right_step = Get3(piece, P::kRightStep);
   const V3 end_step = Get3(piece, P::kLeftStep);
+  const V quarter_time = hn::Set(Tag(), 0.25 * g.time_step * g.time_step);
   V largest = hn::Zero(Tag());
   V sum = hn::Zero(Tag());
   for (ptrdiff_t t = g.length - 1; t >= 0; --t) {
@@ -564,15 +700,16 @@ HWY_INLINE void Backward(const ChainGroup& g, int lane) {
       const V3 y = Get3(scratch - BodyScratchBlock::kSize * kPackLanes,
                         BodyScratchBlock::kJoint);
       left_step = Minus(
-          Minus(Times(GetSymmetric(factor, JointFactorBlock::kInverse), y),
+          Minus(y,
                 Times(GetMatrix(factor, JointFactorBlock::kNext), right_step)),
           Times(GetMatrix(factor, JointFactorBlock::kStart), end_step));
     }
     Put3(Minus(Get3(iterate, BodyIterateBlock::kImpulse), right_step), iterate,
          BodyIterateBlock::kImpulse);
     const M3 frame = GetMatrix(scratch, BodyScratchBlock::kFrame);
-    const V3 left_force = TransposeTimes(frame, left_step);
-    const V3 right_force = TransposeTimes(frame, right_step);
+    const Deviation d = GetDeviation(scratch);
+    const V3 left_force = Deviate(d, TransposeTimes(frame, left_step));
+    const V3 right_force = Deviate(d, TransposeTimes(frame, right_step));
     M3 load;
     for (int i = 0; i < 3; ++i) {
       load.column[i] =
@@ -581,7 +718,11 @@ HWY_INLINE void Backward(const ChainGroup& g, int lane) {
     }
     const V3 centre = Plus(Times(Get(constants, C::kLeftWeight), left_step),
                            Times(Get(constants, C::kRightWeight), right_step));
-    CorrectBody(constants, scratch, frame, centre, load, iterate, &largest,
+    M3 solved = SolveTangent(constants, load, d, quarter_time);
+    for (int i = 0; i < 3; ++i) {
+      solved.column[i] = Deviate(d, solved.column[i]);
+    }
+    CorrectBody(constants, scratch, frame, centre, solved, iterate, &largest,
                 &sum);
     right_step = left_step;
   }
@@ -604,8 +745,9 @@ HWY_INLINE void BackwardBodies(const ChainGroup& g, int lane) {
     for (int i = 0; i < 3; ++i) {
       load.column[i] = TransposeTimes(frame, Get3(loads, 3 + 3 * i));
     }
-    CorrectBody(g.constants[t] + lane, scratch, frame, Get3(loads, 0), load,
-                iterate, &largest, &sum);
+    const double* const constants = g.constants[t] + lane;
+    CorrectBody(constants, scratch, frame, Get3(loads, 0),
+                SolveTangent(constants, load), iterate, &largest, &sum);
   }
   Put(largest, g.piece + lane, PieceBlock::kCorrection);
   Put(sum, g.piece + lane, PieceBlock::kCorrectionSum);

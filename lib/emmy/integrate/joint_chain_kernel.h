@@ -39,11 +39,20 @@ struct BodyConstants {
   static constexpr int kShear = 17;        // c of the shear pairs.
   static constexpr int kRightWeight = 20;  // g of the right joint.
   static constexpr int kLeftWeight = 24;   // Of the left one.
-  static constexpr int kRightCompliance =
-      28;  // Ŝ of the right joint, symmetric.
-  static constexpr int kLeftCompliance = 34;   // Of the left one.
-  static constexpr int kCrossCompliance = 40;  // Right row, left column.
-  static constexpr int kSize = 49;
+  // Ŝ of the right joint, symmetric, and B, which makes of a turn φ the axial
+  // vector of what it adds.
+  static constexpr int kRightCompliance = 28;
+  static constexpr int kRightTurn = 34;
+  static constexpr int kLeftCompliance = 43;  // Of the left one.
+  static constexpr int kLeftTurn = 49;
+  // Right row, left column; and what turns about the three axes add to it.
+  static constexpr int kCrossCompliance = 58;
+  static constexpr int kCrossTurn = 67;
+  // And what each of the six strains does.
+  static constexpr int kRightStrain = 94;
+  static constexpr int kLeftStrain = 130;
+  static constexpr int kCrossStrain = 166;
+  static constexpr int kSize = 220;
 };
 
 // The start of the step.
@@ -68,18 +77,22 @@ struct BodyIterateBlock {
 struct BodyScratchBlock {
   static constexpr int kCorrection = 0;         // u
   static constexpr int kFrame = 12;             // Q
-  static constexpr int kJoint = 21;             // y of the right joint.
+  static constexpr int kTurn = 21;              // φ, in the frame.
+  static constexpr int kJoint = 24;             // D⁻¹ y of the right joint.
   static constexpr int kPositionIncrement = 0;  // Δq, by Finish.
   static constexpr int kStrainIncrement = 12;   // Δε, by Finish.
-  static constexpr int kSize = 24;
+  static constexpr int kStrain = 27;            // ε̄
+  static constexpr int kSize = 33;
 };
 
 // Of the elimination of the right joint.
 struct JointFactorBlock {
-  static constexpr int kInverse = 0;  // D⁻¹, symmetric.
-  static constexpr int kNext = 6;     // L: what the next joint gets of it.
-  static constexpr int kStart = 15;  // Z = D⁻¹ C, C the tie to the left end.
-  static constexpr int kSize = 24;
+  static constexpr int kInverse = 0;   // D⁻¹
+  static constexpr int kBelow = 9;     // Row of the next joint, this column.
+  static constexpr int kAtStart = 18;  // Row of the left end, this column.
+  static constexpr int kNext = 27;     // D⁻¹ times what is right of D.
+  static constexpr int kStart = 36;  // D⁻¹ C, C the column of the left end.
+  static constexpr int kSize = 45;
 };
 
 // Of the pieces as a whole.
@@ -97,23 +110,24 @@ struct PieceBlock {
   static constexpr int kLeftSide = 18;
   static constexpr int kLeftRate = 21;
   static constexpr int kLeftRest = 24;
-  static constexpr int kRightMatrix = 27;  // Symmetric.
-  static constexpr int kLeftMatrix = 33;   // Symmetric.
-  static constexpr int kTie = 39;          // Right row, left column.
+  static constexpr int kRightMatrix = 27;
+  static constexpr int kLeftMatrix = 36;
+  static constexpr int kBelow = 45;  // Right row, left column.
+  static constexpr int kAbove = 54;  // Left row, right column.
   // Sums over the piece.
-  static constexpr int kForce = 48;
-  static constexpr int kMoment = 51;
-  static constexpr int kWork = 54;
-  static constexpr int kForceSize = 55;   // Squares of the terms' sizes,
-  static constexpr int kMomentSize = 56;  // with arm,
-  static constexpr int kWorkSize = 57;    // with rate.
-  static constexpr int kRate = 58;        // Largest |w₀|, |w̄|.
-  static constexpr int kEnergy = 59;      // Of the start.
-  static constexpr int kLoadWork = 60;    // Of the weight, in absolute value.
+  static constexpr int kForce = 63;
+  static constexpr int kMoment = 66;
+  static constexpr int kWork = 69;
+  static constexpr int kForceSize = 70;   // Squares of the terms' sizes,
+  static constexpr int kMomentSize = 71;  // with arm,
+  static constexpr int kWorkSize = 72;    // with rate.
+  static constexpr int kRate = 73;        // Largest |w₀|, |w̄|.
+  static constexpr int kEnergy = 74;      // Of the start.
+  static constexpr int kLoadWork = 75;    // Of the weight, in absolute value.
   // Written by Backward.
-  static constexpr int kCorrection = 61;     // Largest |δw|.
-  static constexpr int kCorrectionSum = 62;  // Not finite if one is not.
-  static constexpr int kSize = 63;
+  static constexpr int kCorrection = 76;     // Largest |δw|.
+  static constexpr int kCorrectionSum = 77;  // Not finite if one is not.
+  static constexpr int kSize = 78;
 };
 
 // Of one group: arrays of `length` packs.

@@ -1,15 +1,18 @@
 #include "emmy/integrate/joint_compliance.h"
 
 #include <algorithm>
+#include <array>
 
 #include "emmy/integrate/body_packs.h"
 #include "emmy/integrate/joint_chain_kernel.h"
 #include "emmy/integrate/joint_graph.h"
+#include "emmy/numerics/rotation.h"
 
 namespace emmy {
-
 JointCompliance::JointCompliance(const AncfRigidBody& body, double time_step)
-    : mass_(body.mass()), moments_(body.second_moment().diagonal()) {
+    : mass_(body.mass()),
+      moments_(body.second_moment().diagonal()),
+      stress_((0.25 * time_step * time_step) * body.penalty_stiffness()) {
   const Vector6d c = (0.25 * time_step * time_step) * body.penalty_stiffness();
   shear_ = c.tail<3>();
   for (int i = 0; i < 3; ++i) {
@@ -21,20 +24,64 @@ JointCompliance::JointCompliance(const AncfRigidBody& body, double time_step)
   }
 }
 
+Matrix3d JointCompliance::Solve(const Matrix3d& y) const {
+  Matrix3d x;
+  for (int i = 0; i < 3; ++i) {
+    x(i, i) = inverse_(i) * y(i, i);
+    const auto [m, n] = AncfRigidBody::kShearPairs[static_cast<size_t>(i)];
+    const double shear = shear_(i) * (y(n, m) - y(m, n));
+    x(n, m) = inverse_(3 + i) * (moments_(n) * y(n, m) + shear);
+    x(m, n) = inverse_(3 + i) * (moments_(m) * y(m, n) - shear);
+  }
+  return x;
+}
+
 Matrix3d JointCompliance::Between(const Vector4d& g, const Vector4d& h) const {
   Matrix3d s = (g(0) * h(0) / mass_) * Matrix3d::Identity();
-  for (int i = 0; i < 3; ++i) {
-    s(i, i) += inverse_(i) * g(1 + i) * h(1 + i);
-    const auto [m, n] = AncfRigidBody::kShearPairs[static_cast<size_t>(i)];
-    const double c = shear_(i);
-    const double inverse = inverse_(3 + i);
-    // The vector of e_m along n, and that of e_n along m.
-    s(n, n) += inverse * (moments_(n) + c) * g(1 + m) * h(1 + m);
-    s(m, m) += inverse * (moments_(m) + c) * g(1 + n) * h(1 + n);
-    s(n, m) -= inverse * c * g(1 + m) * h(1 + n);
-    s(m, n) -= inverse * c * g(1 + n) * h(1 + m);
+  for (int b = 0; b < 3; ++b) {
+    s.col(b) +=
+        Solve(Vector3d::Unit(b) * h.tail<3>().transpose()) * g.tail<3>();
   }
   return s;
+}
+
+Matrix3d JointCompliance::OfTurn(const Vector4d& g, const Vector4d& h,
+                                 int axis) const {
+  const Matrix3d turn = Hat(Vector3d::Unit(axis));
+  const Matrix3d s =
+      Between(g, h) - (g(0) * h(0) / mass_) * Matrix3d::Identity();
+  Matrix3d change = turn * s + s * turn;
+  for (int b = 0; b < 3; ++b) {
+    const Matrix3d of_impulse =
+        Solve(Vector3d::Unit(b) * h.tail<3>().transpose());
+    const Matrix3d turned = turn * of_impulse * moments_.asDiagonal();
+    change.col(b) -= 2.0 * (Solve(turned) * g.tail<3>());
+  }
+  return change;
+}
+
+Matrix3d JointCompliance::OfStrain(const Vector4d& g, const Vector4d& h,
+                                   int k) const {
+  const auto pair = static_cast<size_t>(k);
+  const auto [m, n] = k < 3 ? AncfRigidBody::VectorPair{k, k}
+                            : AncfRigidBody::kShearPairs[pair - 3];
+  Matrix3d strain = Matrix3d::Zero();
+  strain(m, n) += 0.5;
+  strain(n, m) += 0.5;
+  const double centre = g(0) * h(0) / mass_;
+  const Matrix3d s = Between(g, h) - centre * Matrix3d::Identity();
+  Matrix3d change = -2.0 * (strain * s + s * strain + centre * strain);
+  // The stress of that strain, on e_m along e_n and the other way round.
+  const double stress = stress_(k);
+  for (int b = 0; b < 3; ++b) {
+    const Matrix3d of_impulse =
+        Solve(Vector3d::Unit(b) * h.tail<3>().transpose());
+    Matrix3d moved = -2.0 * strain * of_impulse * moments_.asDiagonal();
+    moved.col(m) += stress * of_impulse.col(n);
+    if (m != n) moved.col(n) += stress * of_impulse.col(m);
+    change.col(b) -= Solve(moved) * g.tail<3>();
+  }
+  return change;
 }
 
 double JointShift(const Structure& structure) {
@@ -69,10 +116,23 @@ void SetBodyConstants(const Structure& structure, int body, double time_step,
                    C::kRightCompliance, lane);
   SetPackSymmetric(compliance.Between(left, left), constants,
                    C::kLeftCompliance, lane);
-  const Matrix3d cross = compliance.Between(right, left);
-  for (int column = 0; column < 3; ++column) {
-    SetPackVector(cross.col(column), constants,
-                  C::kCrossCompliance + 3 * column, lane);
+  SetPackMatrix(compliance.Between(right, left), constants, C::kCrossCompliance,
+                lane);
+  for (int k = 0; k < 6; ++k) {
+    SetPackSymmetric(compliance.OfStrain(right, right, k), constants,
+                     C::kRightStrain + 6 * k, lane);
+    SetPackSymmetric(compliance.OfStrain(left, left, k), constants,
+                     C::kLeftStrain + 6 * k, lane);
+    SetPackMatrix(compliance.OfStrain(right, left, k), constants,
+                  C::kCrossStrain + 9 * k, lane);
+  }
+  for (int axis = 0; axis < 3; ++axis) {
+    SetPackVector(Axial(compliance.OfTurn(right, right, axis)), constants,
+                  C::kRightTurn + 3 * axis, lane);
+    SetPackVector(Axial(compliance.OfTurn(left, left, axis)), constants,
+                  C::kLeftTurn + 3 * axis, lane);
+    SetPackMatrix(compliance.OfTurn(right, left, axis), constants,
+                  C::kCrossTurn + 9 * axis, lane);
   }
 }
 

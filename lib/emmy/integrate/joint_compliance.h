@@ -25,13 +25,24 @@ class JointCompliance {
   // Ŝ(g, h) [1/kg]; row: direction of the rate, column: of the impulse.
   Matrix3d Between(const Vector4d& g, const Vector4d& h) const;
 
+  // What φ, of size 1 about axis `axis`, adds to it.
+  Matrix3d OfTurn(const Vector4d& g, const Vector4d& h, int axis) const;
+
+  // What component `k` of the mean strain, of size 1, adds to it; shear strains
+  // are sums of two entries of s.
+  Matrix3d OfStrain(const Vector4d& g, const Vector4d& h, int k) const;
+
   // 1/(Mⁱⁱ + cᵢ), then 1/determinant of each shear pair; c of the shear pairs.
   const Vector6d& inverse() const { return inverse_; }
   const Vector3d& shear() const { return shear_; }
 
  private:
+  // (EM-6): column i belongs to eᵢ.
+  Matrix3d Solve(const Matrix3d& y) const;
+
   double mass_;
   Vector3d moments_;
+  Vector6d stress_;  // ¼ Δt² b
   Vector6d inverse_;
   Vector3d shear_;
 };
