@@ -40,11 +40,11 @@ endif()
 # need not be built: half of the time where every line is instrumented, or
 # where another compiler runs only this test.
 #
+# LIBRARY_ONLY: likewise, and the test is of lib alone. emmy_library_tests builds
+# all of these, `ctest -L library` runs them.
+#
 # SEPARATE: sources that give a helper the name of another file's, and so are
 # compiled on their own where CMAKE_UNITY_BUILD joins the others.
-#
-# LIBRARY_ONLY: as WITHOUT_VERIFICATION, and the test is of lib alone. emmy_library_tests builds
-# all of these, `ctest -L library` runs them.
 add_custom_target(emmy_library_tests)
 function(emmy_add_test name)
   cmake_parse_arguments(PARSE_ARGV 1 arg "LIBRARY_ONLY;WITHOUT_VERIFICATION"

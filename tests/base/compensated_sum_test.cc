@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdint>
 
+#include "emmy/numerics/unit_roundoff.h"
 #include "tests/support/random_source.h"
 #include "tests/support/roundoff_bound.h"
 

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "emmy/numerics/unit_roundoff.h"
 #include "tests/support/random_source.h"
 #include "tests/support/roundoff_bound.h"
 #include "tests/support/wide.h"

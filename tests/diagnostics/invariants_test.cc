@@ -7,6 +7,7 @@
 #include <variant>
 
 #include "emmy/model/model_builder.h"
+#include "emmy/numerics/unit_roundoff.h"
 #include "tests/support/paper_box.h"
 #include "tests/support/random_source.h"
 #include "tests/support/roundoff_bound.h"

@@ -7,6 +7,7 @@
 #include <array>
 
 #include "emmy/numerics/rotation.h"
+#include "emmy/numerics/unit_roundoff.h"
 #include "tests/support/paper_box.h"
 #include "tests/support/random_source.h"
 #include "tests/support/roundoff_bound.h"

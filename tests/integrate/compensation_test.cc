@@ -11,6 +11,7 @@
 #include "emmy/integrate/ancf_body_step.h"
 #include "emmy/integrate/conventional_body_step.h"
 #include "emmy/model/model_builder.h"
+#include "emmy/numerics/unit_roundoff.h"
 #include "tests/support/paper_box.h"
 #include "tests/support/random_source.h"
 #include "tests/support/roundoff_bound.h"

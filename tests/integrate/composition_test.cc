@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "emmy/numerics/rotation.h"
+#include "emmy/numerics/unit_roundoff.h"
 #include "tests/integrate/allocation_counter.h"
 #include "tests/support/roundoff_bound.h"
 #include "tests/support/structures.h"

@@ -8,6 +8,8 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <functional>
+#include <limits>
+#include <optional>
 #include <ostream>
 #include <string>
 
@@ -156,18 +158,39 @@ TEST(JointStepAllocationTest, AChainAllocatesNothing) {
   EXPECT_EQ(after.new_, before.new_);
 }
 
-// (EM-17): 1e-4, 1e-9 and rounding are three, of which the work of one does not
-// always show in the third; with (EM-15) alone there are five and more.
-TEST(JointStepIterationsTest, AStepOfAChainTakesThreeOrFour) {
-  TestRun run(Chain(60), 1e-3);
+// Iterations a step in the mean of some steps, from the 100th on: those before
+// it start without a history.
+double MeanIterations(const ModelDescription& model,
+                      std::optional<double> tolerance) {
+  TestRun run(model,
+              IntegratorOptions{.time_step = 1e-3, .tolerance = tolerance});
   constexpr int kNumSteps = 300;
   int iterations = 0;
-  for (int i = 0; i < kNumSteps; ++i) {
+  for (int i = 0; i < 100 + kNumSteps; ++i) {
     const StepReport report = run.Step();
-    ASSERT_TRUE(report.ok());
-    iterations += report.iterations;
+    if (!report.ok()) return std::numeric_limits<double>::infinity();
+    if (i >= 100) iterations += report.iterations;
   }
-  EXPECT_LE(iterations, 4 * kNumSteps);
+  return static_cast<double>(iterations) / kNumSteps;
+}
+
+// (EM-17): 1e-4, 1e-9 and rounding are three; the work of the residual
+// sometimes needs a fourth. With (EM-15) alone there are five and more.
+TEST(JointStepIterationsTest, AStepOfAChainTakesThreeOrFour) {
+  EXPECT_LE(MeanIterations(Chain(60), std::nullopt), 4.0);
+}
+
+// The second correction is what the first left: by one order more of a step's
+// turn and the strain. Turns of 1e-4 here,
+TEST(JointStepIterationsTest, WhatTurnsLeaveIsOfSecondOrder) {
+  EXPECT_LE(MeanIterations(Chain(60), 1e-10), 2.1);
+}
+
+// and strains of 1e-3 by the weight of the chain here.
+TEST(JointStepIterationsTest, WhatStrainsLeaveIsOfSecondOrder) {
+  ModelDescription model = HangingChain(60, /*both_ends=*/false);
+  model.gravity = {3.0, -2.0, -9.81};
+  EXPECT_LE(MeanIterations(model, 1e-8), 2.1);
 }
 
 // That the check of the laws can fail.

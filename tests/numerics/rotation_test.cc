@@ -7,6 +7,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "emmy/numerics/unit_roundoff.h"
 #include "tests/support/random_source.h"
 #include "tests/support/roundoff_bound.h"
 #include "tests/support/wide.h"

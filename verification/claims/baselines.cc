@@ -9,6 +9,7 @@
 #include "absl/strings/str_format.h"
 #include "emmy/diagnostics/invariants.h"
 #include "emmy/model/model_builder.h"
+#include "emmy/numerics/unit_roundoff.h"
 #include "verification/baselines/elastic_system.h"
 #include "verification/claims/groups.h"
 #include "verification/figures/baseline_figures.h"
@@ -20,14 +21,13 @@ namespace emmy::verification {
 namespace {
 
 // Unit round-off: a measured error is not asked to be smaller.
-constexpr double kUnit = 0.5 * std::numeric_limits<double>::epsilon();
 
 ModelDescription Box(double penalty) { return PaperBoxAncf(penalty); }
 
 // How many times larger a baseline's energy error is than that of the scheme.
 double TimesLarger(const BaselinePanel& panel, size_t baseline) {
   return panel.methods[baseline].largest_energy /
-         std::max(panel.methods[0].largest_energy, kUnit);
+         std::max(panel.methods[0].largest_energy, kUnitRoundoff);
 }
 
 absl::StatusOr<ClaimResult> EnergyHistories(const ClaimSetting& setting,
@@ -89,7 +89,7 @@ absl::StatusOr<ClaimResult> KeptAngularMomentum(const ClaimSetting& setting) {
     const double num_steps = duration / kPaperTimeStep;
     result.values.push_back(
         {BaselineName(baseline),
-         history->largest_angular_momentum / (num_steps * kUnit)});
+         history->largest_angular_momentum / (num_steps * kUnitRoundoff)});
     result.notes.push_back(absl::StrFormat(
         "%s: angular momentum %.2g, energy %.2g", BaselineName(baseline),
         history->largest_angular_momentum, history->largest_energy));

@@ -7,6 +7,7 @@
 
 #include "absl/strings/str_format.h"
 #include "emmy/numerics/rotation.h"
+#include "emmy/numerics/unit_roundoff.h"
 #include "verification/claims/groups.h"
 #include "verification/runs/external_body.h"
 #include "verification/runs/fit.h"
@@ -17,7 +18,6 @@ namespace {
 
 // Strains below 2e-12: two thousand times less than the flips allow.
 constexpr double kStiffness = 1e13;  // b [J]
-constexpr double kUnit = 0x1p-53;    // u
 
 struct NamedModel {
   std::string name;
@@ -182,7 +182,7 @@ absl::StatusOr<ClaimResult> Positions(const ClaimSetting& setting) {
                 .maxCoeff();
         worst = std::max(
             worst, (run->Motion().position - exact).cwiseAbs().maxCoeff() /
-                       (kUnit * scale));
+                       (kUnitRoundoff * scale));
       }
       result.values.push_back({named.name, worst});
     }

@@ -14,6 +14,7 @@
 #include "emmy/model/model_builder.h"
 #include "emmy/numerics/polar.h"
 #include "emmy/numerics/rotation.h"
+#include "emmy/numerics/unit_roundoff.h"
 #include "verification/claims/groups.h"
 #include "verification/claims/long_double.h"
 #include "verification/runs/larger.h"

@@ -5,6 +5,7 @@
 
 #include "absl/strings/str_format.h"
 #include "emmy/diagnostics/invariants.h"
+#include "emmy/numerics/unit_roundoff.h"
 #include "verification/claims/groups.h"
 #include "verification/runs/fit.h"
 #include "verification/runs/paper_box.h"
@@ -88,9 +89,8 @@ class RoundingBudget {
         strain_terms;
     const double kinetic =
         MeasureInvariants(run.model(), state).InternalEnergy().ToDouble();
-    constexpr double kUnit = 0x1p-53;
     constexpr double kOperations = 32.0;  // From Δw to Δε and f̄·Δq.
-    bound_ += kOperations * kUnit * (work + kinetic);
+    bound_ += kOperations * kUnitRoundoff * (work + kinetic);
     last_ = state;
   }
 

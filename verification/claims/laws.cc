@@ -15,6 +15,7 @@
 #include "emmy/element/relaxed_start.h"
 #include "emmy/model/model_builder.h"
 #include "emmy/numerics/rotation.h"
+#include "emmy/numerics/unit_roundoff.h"
 #include "verification/claims/groups.h"
 #include "verification/claims/long_double.h"
 #include "verification/exact/free_rigid_body.h"

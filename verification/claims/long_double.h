@@ -8,7 +8,6 @@
 #include <random>
 
 #include "emmy/base/types.h"
-#include "emmy/numerics/unit_roundoff.h"
 
 namespace emmy::verification {
 

@@ -28,16 +28,6 @@ void SetPackMatrix(const Matrix3d& m, double* pack, int block, size_t lane) {
   }
 }
 
-Matrix3d PackSymmetric(const double* pack, int block, size_t lane) {
-  Matrix3d m;
-  for (int i = 0; i < 3; ++i) {
-    for (int j = 0; j <= i; ++j) {
-      m(i, j) = m(j, i) = PackEntry(pack, block++, lane);
-    }
-  }
-  return m;
-}
-
 void SetPackSymmetric(const Matrix3d& m, double* pack, int block, size_t lane) {
   for (int i = 0; i < 3; ++i) {
     for (int j = 0; j <= i; ++j) PackEntry(pack, block++, lane) = m(i, j);

@@ -43,7 +43,6 @@ inline void SetPackVector(const Vector3d& v, double* pack, int block,
 }
 Matrix3d PackMatrix(const double* pack, int block, size_t lane);
 void SetPackMatrix(const Matrix3d& m, double* pack, int block, size_t lane);
-Matrix3d PackSymmetric(const double* pack, int block, size_t lane);
 void SetPackSymmetric(const Matrix3d& m, double* pack, int block, size_t lane);
 
 class BodyPacks {

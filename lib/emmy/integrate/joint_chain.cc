@@ -70,9 +70,10 @@ void JointChain::MakeConstants(const std::vector<BodyJoint>& joints,
       const int body = inside ? row.bodies[i] : kNone;
       const int right = inside ? row.joints[i] : kNone;
       const int left = inside && i > 0 ? row.joints[i - 1] : kNone;
-      SetBodyConstants(*structure_, body, time_step_,
-                       JointWeights(joints, right, body),
-                       JointWeights(joints, left, body), block.data(), lane);
+      SetBodyConstants(*structure_, body, time_step_, block.data(), lane);
+      SetJointConstants(*structure_, body, time_step_,
+                        JointWeights(joints, right, body),
+                        JointWeights(joints, left, body), block.data(), lane);
       if (right == kNone) {
         // Any matrix will do, the right side is zero.
         SetPackSymmetric(shift_ / kJointShift * Matrix3d::Identity(),

@@ -1,6 +1,6 @@
 // A row of ANCF bodies, each joined to the next by a shared point.
 //
-// Correction of (EM-9) with the bodies eliminated, K of (EM-17) for each:
+// Correction of (EM-9) with the bodies eliminated, K + P of (EM-17) for K:
 //   (S + κ) δ(Δt λ) = G K⁻¹ r − 2 G w̄,  S = G K⁻¹ Gᵀ
 //   δw = K⁻¹ r − K⁻¹ Gᵀ δ(Δt λ)                                     (EM-14)
 // S has 3×3 blocks, is block tridiagonal and, by the turn of the step, not

@@ -177,7 +177,7 @@ HWY_INLINE M3 SolveTangent(const double* constants, const M3& y) {
   return x;
 }
 
-// What is constant in the frame Q only without it (EM-17).
+// How a step departs from a body at rest in its frame Q (EM-17).
 struct Deviation {
   V3 turn;      // φ
   V strain[6];  // ε̄
@@ -347,19 +347,26 @@ HWY_INLINE Deviation GetDeviation(const double* scratch) {
 }
 
 // What a body gives to the block of one joint, (EM-15) with (EM-17).
-HWY_INLINE M3 OwnBlock(const double* constants, int compliance, int of_turn,
+// Linear in φ and s, as what is second order in them is left to the iteration.
+struct OwnOffsets {
+  int compliance, turn, strain;
+};
+constexpr OwnOffsets kOwnLeft = {BodyConstants::kLeftCompliance,
+                                 BodyConstants::kLeftTurn,
+                                 BodyConstants::kLeftStrain};
+constexpr OwnOffsets kOwnRight = {BodyConstants::kRightCompliance,
+                                  BodyConstants::kRightTurn,
+                                  BodyConstants::kRightStrain};
+HWY_INLINE M3 OwnBlock(const double* constants, const OwnOffsets& at,
                        const M3& frame, const Deviation& d) {
-  Symmetric own = GetSymmetric(constants, compliance);
-  const int of = compliance == BodyConstants::kRightCompliance
-                     ? BodyConstants::kRightStrain
-                     : BodyConstants::kLeftStrain;
+  Symmetric own = GetSymmetric(constants, at.compliance);
   for (int k = 0; k < 6; ++k) {
     for (int i = 0; i < 6; ++i) {
-      own.v[i] = own.v[i] + d.strain[k] * Get(constants, of + 6 * k + i);
+      own.v[i] = own.v[i] + d.strain[k] * Get(constants, at.strain + 6 * k + i);
     }
   }
   return WithSkew(Turned(frame, own),
-                  Times(frame, Times(GetMatrix(constants, of_turn), d.turn)));
+                  Times(frame, Times(GetMatrix(constants, at.turn), d.turn)));
 }
 
 // And to those of its two joints with each other: row right and column left,
@@ -397,6 +404,7 @@ HWY_INLINE void Forward(const ChainGroup& g, int lane) {
   const V dt = hn::Set(tag, g.time_step);
   const V half = hn::Set(tag, 0.5);
   const V quarter = hn::Set(tag, 0.25);
+  const V quarter_time = hn::Set(tag, 0.25 * g.time_step * g.time_step);
   const V two = hn::Set(tag, 2.0);
   const V per_time = hn::Set(tag, 1.0 / g.time_step);
   const V shift = hn::Set(tag, g.shift);
@@ -536,8 +544,7 @@ HWY_INLINE void Forward(const ChainGroup& g, int lane) {
         along.column[i] =
             Deviate(deviation, TransposeTimes(frame, residual[1 + i]));
       }
-      const M3 solved =
-          SolveTangent(constants, along, deviation, dt * dt * quarter);
+      const M3 solved = SolveTangent(constants, along, deviation, quarter_time);
       for (int i = 0; i < 3; ++i) {
         u[1 + i] = Times(frame, Deviate(deviation, solved.column[i]));
       }
@@ -583,10 +590,8 @@ HWY_INLINE void Forward(const ChainGroup& g, int lane) {
       Put3(left_rate, piece, P::kLeftRate);
       Put3(left_rest, piece, P::kLeftRest);
       if constexpr (kFactorize) {
-        end_matrix = OwnBlock(constants, C::kLeftCompliance, C::kLeftTurn,
-                              frame, deviation);
-        matrix = OwnBlock(constants, C::kRightCompliance, C::kRightTurn, frame,
-                          deviation);
+        end_matrix = OwnBlock(constants, kOwnLeft, frame, deviation);
+        matrix = OwnBlock(constants, kOwnRight, frame, deviation);
         CrossBlocks(constants, frame, deviation, &end_column, &end_row);
       }
       side = right_side;
@@ -598,8 +603,8 @@ HWY_INLINE void Forward(const ChainGroup& g, int lane) {
       M3 below;
       M3 at_start;
       if constexpr (kFactorize) {
-        M3 diagonal = Plus(matrix, OwnBlock(constants, C::kLeftCompliance,
-                                            C::kLeftTurn, frame, deviation));
+        M3 diagonal =
+            Plus(matrix, OwnBlock(constants, kOwnLeft, frame, deviation));
         for (int i = 0; i < 3; ++i) {
           diagonal.column[i].v[i] = diagonal.column[i].v[i] + shift;
         }
@@ -614,8 +619,7 @@ HWY_INLINE void Forward(const ChainGroup& g, int lane) {
         PutMatrix(at_start, factor, JointFactorBlock::kAtStart);
         PutMatrix(next, factor, JointFactorBlock::kNext);
         PutMatrix(start_tie, factor, JointFactorBlock::kStart);
-        matrix = Minus(OwnBlock(constants, C::kRightCompliance, C::kRightTurn,
-                                frame, deviation),
+        matrix = Minus(OwnBlock(constants, kOwnRight, frame, deviation),
                        Times(below, next));
         end_matrix = Minus(end_matrix, Times(end_row, start_tie));
         end_column = Minus(zero_matrix, Times(below, start_tie));
@@ -661,7 +665,8 @@ HWY_INLINE void Forward(const ChainGroup& g, int lane) {
   }
 }
 
-// δw = u − K⁻¹ P, with M times it for x̄ and along the frame for the eᵢ.
+// δw = u − K⁻¹ p; `centre` is M times the second term for x̄, `solved` that
+// along the frame for the eᵢ.
 HWY_INLINE void CorrectBody(const double* constants, const double* scratch,
                             const M3& frame, const V3& centre, const M3& solved,
                             double* iterate, V* largest, V* sum) {
@@ -730,7 +735,7 @@ HWY_INLINE void Backward(const ChainGroup& g, int lane) {
   Put(sum, piece, P::kCorrectionSum);
 }
 
-// Bodies alone: P is where the loads were.
+// Bodies alone: p is where the loads were.
 HWY_INLINE void BackwardBodies(const ChainGroup& g, int lane) {
   V largest = hn::Zero(Tag());
   V sum = hn::Zero(Tag());

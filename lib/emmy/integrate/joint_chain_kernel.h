@@ -10,6 +10,7 @@
 // One iteration on (EM-9), with the bodies eliminated (EM-14):
 //   forward   residual r and u = K⁻¹ r of each body, joints eliminated from the
 //             piece's start to its end (block tridiagonal S)      (EM-16)
+//             K⁻¹ with the turn and strain of the step in a row   (EM-17)
 //   between   the separators, by the caller
 //   backward  joint impulses and velocity increments
 //
@@ -37,6 +38,7 @@ struct BodyConstants {
   static constexpr int kStiffness = 5;     // b
   static constexpr int kInverse = 11;      // As in (EM-6).
   static constexpr int kShear = 17;        // c of the shear pairs.
+  static constexpr int kBodySize = 20;     // That is all without a row.
   static constexpr int kRightWeight = 20;  // g of the right joint.
   static constexpr int kLeftWeight = 24;   // Of the left one.
   // Ŝ of the right joint, symmetric, and B, which makes of a turn φ the axial
@@ -75,23 +77,24 @@ struct BodyIterateBlock {
 
 // From the forward sweep to the backward one; then the solution.
 struct BodyScratchBlock {
-  static constexpr int kCorrection = 0;         // u
-  static constexpr int kFrame = 12;             // Q
-  static constexpr int kTurn = 21;              // φ, in the frame.
-  static constexpr int kJoint = 24;             // D⁻¹ y of the right joint.
+  static constexpr int kCorrection = 0;  // u
+  static constexpr int kFrame = 12;      // Q
+  static constexpr int kTurn = 21;       // φ, in the frame.
+  static constexpr int kJoint = 24;      // B⁻¹ y of the right joint.
+  static constexpr int kStrain = 27;     // ε̄
+  static constexpr int kSize = 33;
   static constexpr int kPositionIncrement = 0;  // Δq, by Finish.
   static constexpr int kStrainIncrement = 12;   // Δε, by Finish.
-  static constexpr int kStrain = 27;            // ε̄
-  static constexpr int kSize = 33;
 };
 
-// Of the elimination of the right joint.
+// Of the elimination of the right joint, with its block B of the diagonal when
+// it is its turn.
 struct JointFactorBlock {
-  static constexpr int kInverse = 0;   // D⁻¹
+  static constexpr int kInverse = 0;   // B⁻¹
   static constexpr int kBelow = 9;     // Row of the next joint, this column.
   static constexpr int kAtStart = 18;  // Row of the left end, this column.
-  static constexpr int kNext = 27;     // D⁻¹ times what is right of D.
-  static constexpr int kStart = 36;  // D⁻¹ C, C the column of the left end.
+  static constexpr int kNext = 27;     // B⁻¹ times what is right of B.
+  static constexpr int kStart = 36;  // B⁻¹ C, C the column of the left end.
   static constexpr int kSize = 45;
 };
 

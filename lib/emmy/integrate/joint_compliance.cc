@@ -9,11 +9,12 @@
 #include "emmy/numerics/rotation.h"
 
 namespace emmy {
+
 JointCompliance::JointCompliance(const AncfRigidBody& body, double time_step)
     : mass_(body.mass()),
       moments_(body.second_moment().diagonal()),
       stress_((0.25 * time_step * time_step) * body.penalty_stiffness()) {
-  const Vector6d c = (0.25 * time_step * time_step) * body.penalty_stiffness();
+  const Vector6d& c = stress_;
   shear_ = c.tail<3>();
   for (int i = 0; i < 3; ++i) {
     inverse_(i) = 1.0 / (moments_(i) + c(i));
@@ -93,7 +94,6 @@ double JointShift(const Structure& structure) {
 }
 
 void SetBodyConstants(const Structure& structure, int body, double time_step,
-                      const Vector4d& right, const Vector4d& left,
                       double* constants, size_t lane) {
   using C = BodyConstants;
   if (body == BodyJoint::kNone) return;
@@ -108,6 +108,15 @@ void SetBodyConstants(const Structure& structure, int body, double time_step,
     PackEntry(constants, C::kInverse + k, lane) = compliance.inverse()(k);
   }
   SetPackVector(compliance.shear(), constants, C::kShear, lane);
+}
+
+void SetJointConstants(const Structure& structure, int body, double time_step,
+                       const Vector4d& right, const Vector4d& left,
+                       double* constants, size_t lane) {
+  using C = BodyConstants;
+  if (body == BodyJoint::kNone) return;
+  const JointCompliance compliance(
+      *structure.bodies[static_cast<size_t>(body)].body->ancf(), time_step);
   for (int a = 0; a < 4; ++a) {
     PackEntry(constants, C::kRightWeight + a, lane) = right(a);
     PackEntry(constants, C::kLeftWeight + a, lane) = left(a);

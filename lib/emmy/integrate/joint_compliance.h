@@ -1,4 +1,4 @@
-// What an ANCF body gives way at its joints, in its own frame.
+// What an ANCF body gives way at its joints, in its own frame [1/kg].
 //
 // With the constant tangent (EM-6) of the body, a unit impulse at a joint with
 // weights h changes the rate of the joint with weights g by
@@ -50,11 +50,13 @@ class JointCompliance {
 // κ of a structure.
 double JointShift(const Structure& structure);
 
-// Constants of a body (kNone: nothing, zeros are right) in one lane, with the
-// weights of its joints.
+// Constants of a body (kNone: nothing, zeros are right) in one lane, with and
+// without those of its joints.
 void SetBodyConstants(const Structure& structure, int body, double time_step,
-                      const Vector4d& right, const Vector4d& left,
                       double* constants, size_t lane);
+void SetJointConstants(const Structure& structure, int body, double time_step,
+                       const Vector4d& right, const Vector4d& left,
+                       double* constants, size_t lane);
 
 }  // namespace emmy
 

@@ -75,17 +75,15 @@ JointNet::JointNet(const Structure& structure,
     }
   }
   MakeCouplings(structure, joints);
-  constants_ = AllocatePacks(packs_.packs(), BodyConstants::kSize);
+  constexpr int kSize = BodyConstants::kBodySize;
+  constants_ = AllocatePacks(packs_.packs(), kSize);
   for (size_t pack = 0; pack < packs_.packs(); ++pack) {
-    constants_of_pack_.push_back(constants_.get() +
-                                 pack * BodyConstants::kSize * kLanes);
+    constants_of_pack_.push_back(constants_.get() + pack * kSize * kLanes);
   }
   for (size_t b = 0; b < structure.bodies.size(); ++b) {
-    SetBodyConstants(
-        structure, static_cast<int>(b), time_step, Vector4d::Zero(),
-        Vector4d::Zero(),
-        constants_.get() + b / kLanes * BodyConstants::kSize * kLanes,
-        b % kLanes);
+    SetBodyConstants(structure, static_cast<int>(b), time_step,
+                     constants_.get() + b / kLanes * kSize * kLanes,
+                     b % kLanes);
   }
   right_side_.setZero(3 * static_cast<Eigen::Index>(joints.size()));
   solution_ = right_side_;

@@ -2,9 +2,9 @@
 //
 // The equations (EM-9), the arithmetic and the stop rule are those of
 // CoupledStep, and so is the solution, up to round-off. What differs is the
-// correction: the bodies are eliminated by their constant tangents (EM-6), and
-// a small system for the joint forces is left (EM-14). It costs a step of a
-// long chain some hundred operations a body and iteration.
+// correction: the bodies are eliminated by their tangents, constant (EM-6) or,
+// in a chain, to first order in turn and strain (EM-17), and a small system for
+// the joint forces is left (EM-14).
 //
 // Where that does not converge (large steps, soft penalties), the whole step is
 // done again by CoupledStep.
