@@ -346,8 +346,7 @@ HWY_INLINE Deviation GetDeviation(const double* scratch) {
   return d;
 }
 
-// What a body gives to the block of one joint, (EM-15) with (EM-17).
-// Linear in φ and s, as what is second order in them is left to the iteration.
+// Of the constants of one of a body's two joints.
 struct OwnOffsets {
   int compliance, turn, strain;
 };
@@ -357,6 +356,9 @@ constexpr OwnOffsets kOwnLeft = {BodyConstants::kLeftCompliance,
 constexpr OwnOffsets kOwnRight = {BodyConstants::kRightCompliance,
                                   BodyConstants::kRightTurn,
                                   BodyConstants::kRightStrain};
+
+// What a body gives to the block of one joint, (EM-15) with (EM-17): linear in
+// φ and s, as what is second order in them is left to the iteration.
 HWY_INLINE M3 OwnBlock(const double* constants, const OwnOffsets& at,
                        const M3& frame, const Deviation& d) {
   Symmetric own = GetSymmetric(constants, at.compliance);

@@ -1,7 +1,6 @@
 #include "emmy/integrate/joint_compliance.h"
 
 #include <algorithm>
-#include <array>
 
 #include "emmy/integrate/body_packs.h"
 #include "emmy/integrate/joint_chain_kernel.h"
@@ -15,7 +14,6 @@ JointCompliance::JointCompliance(const AncfRigidBody& body, double time_step)
       moments_(body.second_moment().diagonal()),
       stress_((0.25 * time_step * time_step) * body.penalty_stiffness()) {
   const Vector6d& c = stress_;
-  shear_ = c.tail<3>();
   for (int i = 0; i < 3; ++i) {
     inverse_(i) = 1.0 / (moments_(i) + c(i));
     const auto [m, n] = AncfRigidBody::kShearPairs[static_cast<size_t>(i)];
@@ -30,18 +28,21 @@ Matrix3d JointCompliance::Solve(const Matrix3d& y) const {
   for (int i = 0; i < 3; ++i) {
     x(i, i) = inverse_(i) * y(i, i);
     const auto [m, n] = AncfRigidBody::kShearPairs[static_cast<size_t>(i)];
-    const double shear = shear_(i) * (y(n, m) - y(m, n));
+    const double shear = stress_(3 + i) * (y(n, m) - y(m, n));
     x(n, m) = inverse_(3 + i) * (moments_(n) * y(n, m) + shear);
     x(m, n) = inverse_(3 + i) * (moments_(m) * y(m, n) - shear);
   }
   return x;
 }
 
+Matrix3d JointCompliance::OfImpulse(const Vector4d& h, int axis) const {
+  return Solve(Vector3d::Unit(axis) * h.tail<3>().transpose());
+}
+
 Matrix3d JointCompliance::Between(const Vector4d& g, const Vector4d& h) const {
   Matrix3d s = (g(0) * h(0) / mass_) * Matrix3d::Identity();
   for (int b = 0; b < 3; ++b) {
-    s.col(b) +=
-        Solve(Vector3d::Unit(b) * h.tail<3>().transpose()) * g.tail<3>();
+    s.col(b) += OfImpulse(h, b) * g.tail<3>();
   }
   return s;
 }
@@ -53,9 +54,7 @@ Matrix3d JointCompliance::OfTurn(const Vector4d& g, const Vector4d& h,
       Between(g, h) - (g(0) * h(0) / mass_) * Matrix3d::Identity();
   Matrix3d change = turn * s + s * turn;
   for (int b = 0; b < 3; ++b) {
-    const Matrix3d of_impulse =
-        Solve(Vector3d::Unit(b) * h.tail<3>().transpose());
-    const Matrix3d turned = turn * of_impulse * moments_.asDiagonal();
+    const Matrix3d turned = turn * OfImpulse(h, b) * moments_.asDiagonal();
     change.col(b) -= 2.0 * (Solve(turned) * g.tail<3>());
   }
   return change;
@@ -75,8 +74,7 @@ Matrix3d JointCompliance::OfStrain(const Vector4d& g, const Vector4d& h,
   // The stress of that strain, on e_m along e_n and the other way round.
   const double stress = stress_(k);
   for (int b = 0; b < 3; ++b) {
-    const Matrix3d of_impulse =
-        Solve(Vector3d::Unit(b) * h.tail<3>().transpose());
+    const Matrix3d of_impulse = OfImpulse(h, b);
     Matrix3d moved = -2.0 * strain * of_impulse * moments_.asDiagonal();
     moved.col(m) += stress * of_impulse.col(n);
     if (m != n) moved.col(n) += stress * of_impulse.col(m);

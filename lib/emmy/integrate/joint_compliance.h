@@ -34,17 +34,18 @@ class JointCompliance {
 
   // 1/(Mⁱⁱ + cᵢ), then 1/determinant of each shear pair; c of the shear pairs.
   const Vector6d& inverse() const { return inverse_; }
-  const Vector3d& shear() const { return shear_; }
+  Vector3d shear() const { return stress_.tail<3>(); }
 
  private:
   // (EM-6): column i belongs to eᵢ.
   Matrix3d Solve(const Matrix3d& y) const;
+  // The same of a unit impulse along axis `axis` at a joint with weights h.
+  Matrix3d OfImpulse(const Vector4d& h, int axis) const;
 
   double mass_;
   Vector3d moments_;
   Vector6d stress_;  // ¼ Δt² b
   Vector6d inverse_;
-  Vector3d shear_;
 };
 
 // κ of a structure.
