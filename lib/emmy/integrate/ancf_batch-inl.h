@@ -48,20 +48,46 @@ struct AncfIncrement {
 
 class AncfPackStep {
  public:
+  static constexpr int kCorrections = 2;  // In a round.
+  static constexpr int kTogether = 1;     // Packs: one fills all registers.
+
+  using Increment = AncfIncrement;
+
+  static HWY_INLINE const Pack33& Change(const Increment& increment) {
+    return increment.rates;
+  }
+
   HWY_INLINE AncfPackStep(const BatchStep& step, int lane, AncfBlock* block)
       : step_(step), lane_(lane), block_(*block) {}
 
-  // Advances the lanes that are alive and converge; returns the others.
-  HWY_INLINE Flag Advance() {
-    Pack33 change =
-        Broadcast(step_.time_step) * Load33(block_.acceleration.next, lane_);
-    return Iterate<2>(this, lane_, &change, &block_.centre);
+  HWY_INLINE Pack33 Start() const {
+    return Broadcast(step_.time_step) * Load33(block_.acceleration.next, lane_);
   }
 
-  // Of Iterate.
-  HWY_INLINE Flag Round(Flag active, Pack33* change, Pack* size) {
-    Correct(change);
-    return Finish(active, change, size);
+  // Two corrections of Δw, the last of the square `size`; returns the lanes in
+  // which what is left is lost in rounding.
+  HWY_INLINE Flag Round(const Pack33& start, Increment* increment,
+                        Pack* size) const {
+    return Finish(Correct(start), increment, size);
+  }
+
+  // The end of the step.
+  template <bool kAll>
+  HWY_INLINE void Commit(const Writer<kAll>& writer,
+                         const Increment& increment) const {
+    AdvanceCentre(step_, writer, lane_, &block_.centre);
+    writer.Add33(increment.gradients, increment.gradients_low, lane_,
+                 &block_.gradients);
+    writer.Add33(increment.rates, lane_, &block_.rates);
+    writer.Add3(increment.strain.normal, block_.strain.value,
+                block_.strain.compensation, lane_);
+    writer.Add3(increment.strain.shear, block_.strain.value + 3,
+                block_.strain.compensation + 3, lane_);
+    const Pack per_time = Broadcast(step_.inverse_time_step);
+    const Pack3 acceleration[3] = {per_time * increment.rates.a,
+                                   per_time * increment.rates.b,
+                                   per_time * increment.rates.c};
+    Predict(acceleration, writer, lane_, &block_.acceleration);
   }
 
  private:
@@ -194,8 +220,8 @@ class AncfPackStep {
 
   // A correction of Δw that leaves (½ |ω|Δt)³ and the strain times ½ |ω|Δt of
   // itself, and what is quadratic.
-  HWY_INLINE void Correct(Pack33* change) const {
-    const Evaluation e = Evaluate(*change);
+  HWY_INLINE Pack33 Correct(const Pack33& change) const {
+    const Evaluation e = Evaluate(change);
     const Pack33 n = FrameChange(e.d, e.mean_strain);
     const Pack quarter_step = Broadcast(0.25 * step_.time_step);
     const PackStrain geometric = {quarter_step * e.stress.normal,
@@ -204,17 +230,16 @@ class AncfPackStep {
     const Pack33 d1 = TangentSolve(Symmetric(n, e.z)) +
                       TangentSolve(rest, Antisymmetric(rest));
     const Pack33 d2 = TangentSolve(Symmetric(n, d1));
-    *change = *change - e.mean * ((e.z - d1) + d2);
+    return change - e.mean * ((e.z - d1) + d2);
   }
 
   // A correction that leaves ½ |ω|Δt of itself as strain, but none of the
-  // moment, and the end of the step for those of the `active` lanes where that
-  // is lost in rounding: they are returned. `size` is the correction's,
-  // squared.
-  HWY_INLINE Flag Finish(Flag active, Pack33* rate_change, Pack* size) {
+  // moment; as Round.
+  HWY_INLINE Flag Finish(const Pack33& start, Increment* increment,
+                         Pack* size) const {
     const Pack half_step = Broadcast(0.5 * step_.time_step);
     const Pack quarter_step = Broadcast(0.25 * step_.time_step);
-    const Evaluation e = Evaluate(*rate_change);
+    const Evaluation e = Evaluate(start);
     const Pack3 moment = quarter_step * StressMoment(e.z, e.stress);
     const Pack3 first = Load3(block_.first_moment, lane_);
     const Pack3 second = Load3(block_.second_moment, lane_);
@@ -225,7 +250,6 @@ class AncfPackStep {
     z.c.y = MulAdd(second.y, moment.y, z.c.y);
     z.c.x = NegMulAdd(first.z, moment.z, z.c.x);
     z.a.z = MulAdd(second.z, moment.z, z.a.z);
-    const Pack33 start = *rate_change;
     const Pack33 change = start - e.mean * z;
 
     // Squares of norms, so that a sum of three has a factor of three.
@@ -246,27 +270,16 @@ class AncfPackStep {
         Broadcast(0x1p-114 / 2.0) * SquareSum(e.mean_rates);
     const Pack turn_limit = Broadcast(0x1p-126 / 3.0) * change_square;
     const Pack sum = z_square + change_square;
-    const Flag done = And(
-        active, And(And(strain_left <= strain_limit, turn_left <= turn_limit),
-                    sum - sum <= Broadcast(0.0)));
-    *rate_change = change;
-    *size = z_square;
-    if (None(done)) return done;
-
     const Pack3 normal = {z.a.x, z.b.y, z.c.z};
     const Pack3 shear = {z.a.y + z.b.x, z.b.z + z.c.y, z.c.x + z.a.z};
-    const AncfIncrement increment = {
-        e.turned,
-        TurnedLow(e, start, change),
-        change,
-        {NegMulAdd(half_step, normal, e.strain.normal),
-         NegMulAdd(half_step, shear, e.strain.shear)}};
-    if (All(done)) {
-      Commit(Writer<true>(done), increment);
-    } else {
-      Commit(Writer<false>(done), increment);
-    }
-    return done;
+    *increment = {e.turned,
+                  TurnedLow(e, start, change),
+                  change,
+                  {NegMulAdd(half_step, normal, e.strain.normal),
+                   NegMulAdd(half_step, shear, e.strain.shear)}};
+    *size = z_square;
+    return And(And(strain_left <= strain_limit, turn_left <= turn_limit),
+               sum - sum <= Broadcast(0.0));
   }
 
   // What Δt w̄ has besides e.turned, for the rate increment `change` instead of
@@ -304,24 +317,6 @@ class AncfPackStep {
     return Load3(block_.strain.value + first, lane_) +
            MulAdd(Broadcast(0.5), increment,
                   Load3(block_.strain.compensation + first, lane_));
-  }
-
-  template <bool kAll>
-  HWY_INLINE void Commit(const Writer<kAll>& writer,
-                         const AncfIncrement& increment) {
-    AdvanceCentre(step_, writer, lane_, &block_.centre);
-    writer.Add33(increment.gradients, increment.gradients_low, lane_,
-                 &block_.gradients);
-    writer.Add33(increment.rates, lane_, &block_.rates);
-    writer.Add3(increment.strain.normal, block_.strain.value,
-                block_.strain.compensation, lane_);
-    writer.Add3(increment.strain.shear, block_.strain.value + 3,
-                block_.strain.compensation + 3, lane_);
-    const Pack per_time = Broadcast(step_.inverse_time_step);
-    const Pack3 acceleration[3] = {per_time * increment.rates.a,
-                                   per_time * increment.rates.b,
-                                   per_time * increment.rates.c};
-    Predict(acceleration, writer, lane_, &block_.acceleration);
   }
 
   const BatchStep& step_;

@@ -1,8 +1,9 @@
-// How a batch keeps its bodies: eight to a block, one array for each number.
+// How a batch keeps its bodies: sixteen to a block, one array for each number.
 //
-// A lane is a body. Eight doubles are 64 bytes, the widest vector there is; a
-// narrower one takes a block in parts. All arrays are indexed [entry][lane];
-// gradient vectors and rates have the entries of e₁, then e₂, then e₃.
+// A lane is a body. Eight doubles are 64 bytes, the widest vector there is: a
+// block is two of them, or more narrower ones, which are stepped in turn. All
+// arrays are indexed [entry][lane]; gradient vectors and rates have the entries
+// of e₁, then e₂, then e₃.
 
 #ifndef EMMY_INTEGRATE_BATCH_BLOCKS_H_
 #define EMMY_INTEGRATE_BATCH_BLOCKS_H_
@@ -11,7 +12,7 @@
 
 namespace emmy {
 
-inline constexpr int kBatchLanes = 8;
+inline constexpr int kBatchLanes = 16;
 
 using Lanes = double[kBatchLanes];
 

@@ -3,6 +3,9 @@
 
 #include "emmy/integrate/batch_kernels.h"
 
+#include <array>
+#include <cstddef>
+
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "emmy/integrate/batch_kernels.cc"
 // Vectors of a length unknown to the compiler cannot be members.
@@ -17,34 +20,106 @@ HWY_BEFORE_NAMESPACE();
 namespace emmy {
 namespace HWY_NAMESPACE {
 
-// The share of one step of `num_steps` in fetching `block`.
+// Fetches a block while another is stepped, the same part of it in each step.
 template <typename Block>
-HWY_INLINE void Fetch(const Block* block, int64_t step, int64_t num_steps) {
-  constexpr int64_t kLine = 64;
-  constexpr int64_t kLines = (int64_t{sizeof(Block)} + kLine - 1) / kLine;
-  const char* const start = reinterpret_cast<const char*>(block);
-  const int64_t end = kLines * (step + 1) / num_steps;
-  for (int64_t line = kLines * step / num_steps; line < end; ++line) {
-    __builtin_prefetch(start + kLine * line, 1, 2);
+class Fetch {
+ public:
+  HWY_INLINE Fetch(const Block* block, int64_t num_steps)
+      : position_(reinterpret_cast<const char*>(block)),
+        end_(block == nullptr ? position_ : position_ + sizeof(Block)),
+        num_lines_((int64_t{sizeof(Block)} / kLine + num_steps - 1) /
+                   num_steps) {}
+
+  HWY_INLINE void Step() {
+    if (position_ == end_) return;
+    for (int64_t i = 0; i < num_lines_ && position_ != end_; ++i) {
+      __builtin_prefetch(position_, 1, 2);
+      position_ += kLine;
+    }
   }
+
+ private:
+  static constexpr int64_t kLine = 64;
+  static_assert(sizeof(Block) % kLine == 0);
+
+  const char* position_;
+  const char* end_;
+  int64_t num_lines_;
+};
+
+// The step of the packs from `lane` on that are stepped together, if one round
+// ends it in all their lanes; else nothing is changed. Without a loop, that the
+// numbers between Round and Commit stay in registers.
+template <typename PackStep, typename Block>
+HWY_INLINE bool StepInOneRound(const BatchStep& step, int lane, Block* block) {
+  const PackStep pack(step, lane, block);
+  typename PackStep::Increment increment;
+  Pack size;
+  const Flag done = And(Alive(block->centre, lane),
+                        pack.Round(pack.Start(), &increment, &size));
+  if constexpr (PackStep::kTogether == 1) {
+    if (!All(done)) return false;
+    pack.Commit(Writer<true>(done), increment);
+  } else {
+    static_assert(PackStep::kTogether == 2);
+    const PackStep next(step, lane + kPackLanes, block);
+    typename PackStep::Increment next_increment;
+    const Flag next_done =
+        And(Alive(block->centre, lane + kPackLanes),
+            next.Round(next.Start(), &next_increment, &size));
+    if (!All(And(done, next_done))) return false;
+    pack.Commit(Writer<true>(done), increment);
+    next.Commit(Writer<true>(next_done), next_increment);
+  }
+  return true;
 }
 
 template <typename PackStep, typename Block>
 HWY_INLINE void Advance(const BatchStep& step, int64_t num_steps, Block* block,
                         const Block* next, LaneFallback* fallback) {
+  if (num_steps == 0) return;
+  Fetch<Block> fetch(next, num_steps);
+  // Packs that are stepped together, and what is known of them.
+  struct Group {
+    bool one_round = true;  // Was enough in the last step.
+    int64_t num_one_round = 0;
+  };
+  constexpr int kGroupLanes = PackStep::kTogether * kPackLanes;
+  std::array<Group, size_t{kBatchLanes / kGroupLanes}> groups;
   for (int lane = 0; lane < kBatchLanes; lane += kPackLanes) {
     PrepareCentre(step, lane, &block->centre);
   }
   for (int64_t i = 0; i < num_steps; ++i) {
-    if (next != nullptr) Fetch(next, i, num_steps);
-    for (int lane = 0; lane < kBatchLanes; lane += kPackLanes) {
-      const Flag left = PackStep(step, lane, block).Advance();
-      if (None(left)) continue;
-      HWY_ALIGN double flags[kBatchLanes];
-      Store(OrZero(left, Broadcast(1.0)), flags);
-      for (int k = 0; k < kPackLanes; ++k) {
-        if (flags[k] != 0.0) fallback->TakeStep(i, lane + k);
+    fetch.Step();
+    int first = -kGroupLanes;
+    for (Group& group : groups) {
+      first += kGroupLanes;
+      if (group.one_round && StepInOneRound<PackStep>(step, first, block)) {
+        ++group.num_one_round;
+        continue;
       }
+      group.one_round = true;
+      for (int lane = first; lane < first + kGroupLanes; lane += kPackLanes) {
+        bool one_round = false;
+        const Flag left = Iterate(PackStep(step, lane, block), lane,
+                                  &block->centre, &one_round);
+        group.one_round = group.one_round && one_round;
+        if (None(left)) continue;
+        HWY_ALIGN double flags[kBatchLanes];
+        Store(OrZero(left, Broadcast(1.0)), flags);
+        for (int k = 0; k < kPackLanes; ++k) {
+          if (flags[k] != 0.0) fallback->TakeStep(i, lane + k);
+        }
+      }
+    }
+  }
+  int lane = 0;
+  for (const Group& group : groups) {
+    const Pack iterations = Broadcast(PackStep::kCorrections *
+                                      static_cast<double>(group.num_one_round));
+    for (const int end = lane + kGroupLanes; lane < end; lane += kPackLanes) {
+      double* const so_far = block->centre.iterations + lane;
+      Store(Load(so_far) + iterations, so_far);
     }
   }
 }

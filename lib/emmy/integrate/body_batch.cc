@@ -26,7 +26,8 @@ bool IsDiagonal(const Matrix3d& m) {
   return m == diagonal;
 }
 
-// Bodies of one kind, eight to a block; the lanes left over are not alive.
+// Bodies of one kind, kBatchLanes to a block; the lanes left over are not
+// alive.
 template <typename Block>
 struct Group {
   bool principal = true;  // Else the ordinary step takes all steps.

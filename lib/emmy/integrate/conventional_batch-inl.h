@@ -30,24 +30,29 @@ struct PackSum3 {
 
 class ConventionalPackStep {
  public:
-  HWY_INLINE ConventionalPackStep(const BatchStep& step, int lane,
-                                  ConventionalBlock* block)
-      : step_(step),
-        lane_(lane),
-        block_(*block),
-        coupling_(Load3(block->coupling, lane)) {}
+  static constexpr int kCorrections = 1;  // In a round.
+  // Packs. A round is a chain of operations that wait for each other: that of
+  // another pack fills the time.
+  static constexpr int kTogether = 2;
 
-  // Advances the lanes that are alive and converge; returns the others.
-  HWY_INLINE Flag Advance() {
-    Pack3 change =
-        Broadcast(step_.time_step) * Load3(block_.acceleration.next, lane_);
-    return Iterate<1>(this, lane_, &change, &block_.centre);
+  using Increment = PackSum3;  // ΔW
+
+  static HWY_INLINE Pack3 Change(const Increment& increment) {
+    return {increment.x.value, increment.y.value, increment.z.value};
   }
 
-  // One correction of ΔW, and the end of the step for those of the `active`
-  // lanes where it was the last, as Iterate wants it.
-  HWY_INLINE Flag Round(Flag active, Pack3* rate_change, Pack* size) {
-    const Pack3& start = *rate_change;
+  HWY_INLINE ConventionalPackStep(const BatchStep& step, int lane,
+                                  ConventionalBlock* block)
+      : step_(step), lane_(lane), block_(*block) {}
+
+  HWY_INLINE Pack3 Start() const {
+    return Broadcast(step_.time_step) * Load3(block_.acceleration.next, lane_);
+  }
+
+  // One correction of ΔW, of the square `size`; returns the lanes in which what
+  // is left is lost in rounding.
+  HWY_INLINE Flag Round(const Pack3& start, Increment* increment,
+                        Pack* size) const {
     const PackSum3 mean = Mean(start);
     const Pack3 residual = {Residual(start.x, 0, mean.y, mean.z),
                             Residual(start.y, 1, mean.z, mean.x),
@@ -56,10 +61,10 @@ class ConventionalPackStep {
         Broadcast(0.5) * Pack3{mean.x.value, mean.y.value, mean.z.value};
     const Pack3 correction =
         Less(residual, half_mean, Less(residual, half_mean, residual));
-    const PackSum3 change = {FastTwoDifference(start.x, correction.x),
-                             FastTwoDifference(start.y, correction.y),
-                             FastTwoDifference(start.z, correction.z)};
-    const Pack3 high = {change.x.value, change.y.value, change.z.value};
+    *increment = {FastTwoDifference(start.x, correction.x),
+                  FastTwoDifference(start.y, correction.y),
+                  FastTwoDifference(start.z, correction.z)};
+    const Pack3 high = Change(*increment);
     // Squares of norms, so that a sum of two has a factor of two: |O|³ of the
     // correction, and what is quadratic.
     const Pack square = Dot(correction, correction);
@@ -70,17 +75,38 @@ class ConventionalPackStep {
         MulAdd(contraction * contraction, contraction, coupling * square) *
         square;
     const Pack sum = square + high_square;
-    const Flag done =
-        And(active, And(left <= Broadcast(0x1p-126 / 2.0) * high_square,
-                        sum - sum <= Broadcast(0.0)));
-    *rate_change = high;
     *size = square;
-    if (All(done)) {
-      Commit(Writer<true>(done), change);
-    } else if (!None(done)) {
-      Commit(Writer<false>(done), change);
-    }
-    return done;
+    return And(left <= Broadcast(0x1p-126 / 2.0) * high_square,
+               sum - sum <= Broadcast(0.0));
+  }
+
+  // The end of the step.
+  template <bool kAll>
+  HWY_INLINE void Commit(const Writer<kAll>& writer,
+                         const Increment& change) const {
+    const Pack3 high = Change(change);
+    const Pack half = Broadcast(0.5);
+    CompensatedLanes<3>& rate = block_.angular_velocity;
+    // (ROT-5): ½ Θ = Δt ½ W̄.
+    const Pack3 mean = Load3(rate.value, lane_) +
+                       MulAdd(half, high, Load3(rate.compensation, lane_));
+    const Pack3 half_turn = Broadcast(0.5 * step_.time_step) * mean;
+    // What the next step begins with comes first.
+    writer.Add(change.x, rate.value[0] + lane_, rate.compensation[0] + lane_);
+    writer.Add(change.y, rate.value[1] + lane_, rate.compensation[1] + lane_);
+    writer.Add(change.z, rate.value[2] + lane_, rate.compensation[2] + lane_);
+    const Pack3 acceleration[1] = {Broadcast(step_.inverse_time_step) * high};
+    Predict(acceleration, writer, lane_, &block_.acceleration);
+    AdvanceCentre(step_, writer, lane_, &block_.centre);
+    const Pack scalar = InverseRootLessOne(Dot(half_turn, half_turn));
+    const Pack3 v = MulAdd(scalar, half_turn, half_turn);
+    CompensatedLanes<4>& q = block_.quaternion;
+    const Pack w = Load(q.value[0] + lane_);
+    const Pack3 u = Load3(q.value + 1, lane_);
+    const Pack3 vector = MulAdd(w, v, MulAdd(scalar, u, Cross(u, v)));
+    writer.Add(MulSub(w, scalar, Dot(u, v)), q.value[0] + lane_,
+               q.compensation[0] + lane_);
+    writer.Add3(vector, q.value + 1, q.compensation + 1, lane_);
   }
 
  private:
@@ -110,9 +136,10 @@ class ConventionalPackStep {
 
   // v − O w, with u = ½ W̄.
   HWY_INLINE Pack3 Less(const Pack3& v, const Pack3& u, const Pack3& w) const {
-    return {NegMulAdd(coupling_.x, MulAdd(u.z, w.y, u.y * w.z), v.x),
-            NegMulAdd(coupling_.y, MulAdd(u.x, w.z, u.z * w.x), v.y),
-            NegMulAdd(coupling_.z, MulAdd(u.y, w.x, u.x * w.y), v.z)};
+    const Pack3 a = Load3(block_.coupling, lane_);
+    return {NegMulAdd(a.x, MulAdd(u.z, w.y, u.y * w.z), v.x),
+            NegMulAdd(a.y, MulAdd(u.x, w.z, u.z * w.x), v.y),
+            NegMulAdd(a.z, MulAdd(u.y, w.x, u.x * w.y), v.z)};
   }
 
   // 1/√(1 + s) − 1, to a rounding of itself.
@@ -130,36 +157,9 @@ class ConventionalPackStep {
     return Choose(is_small, series, closed);
   }
 
-  template <bool kAll>
-  HWY_INLINE void Commit(const Writer<kAll>& writer, const PackSum3& change) {
-    AdvanceCentre(step_, writer, lane_, &block_.centre);
-    const Pack half = Broadcast(0.5);
-    const Pack3 high = {change.x.value, change.y.value, change.z.value};
-    CompensatedLanes<3>& rate = block_.angular_velocity;
-    // (ROT-5): ½ Θ = Δt ½ W̄.
-    const Pack3 mean = Load3(rate.value, lane_) +
-                       MulAdd(half, high, Load3(rate.compensation, lane_));
-    const Pack3 half_turn = Broadcast(0.5 * step_.time_step) * mean;
-    const Pack scalar = InverseRootLessOne(Dot(half_turn, half_turn));
-    const Pack3 v = MulAdd(scalar, half_turn, half_turn);
-    CompensatedLanes<4>& q = block_.quaternion;
-    const Pack w = Load(q.value[0] + lane_);
-    const Pack3 u = Load3(q.value + 1, lane_);
-    const Pack3 vector = MulAdd(w, v, MulAdd(scalar, u, Cross(u, v)));
-    writer.Add(MulSub(w, scalar, Dot(u, v)), q.value[0] + lane_,
-               q.compensation[0] + lane_);
-    writer.Add3(vector, q.value + 1, q.compensation + 1, lane_);
-    writer.Add(change.x, rate.value[0] + lane_, rate.compensation[0] + lane_);
-    writer.Add(change.y, rate.value[1] + lane_, rate.compensation[1] + lane_);
-    writer.Add(change.z, rate.value[2] + lane_, rate.compensation[2] + lane_);
-    const Pack3 acceleration[1] = {Broadcast(step_.inverse_time_step) * high};
-    Predict(acceleration, writer, lane_, &block_.acceleration);
-  }
-
   const BatchStep& step_;
   int lane_;
   ConventionalBlock& block_;
-  Pack3 coupling_;
 };
 
 }  // namespace HWY_NAMESPACE

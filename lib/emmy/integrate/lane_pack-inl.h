@@ -276,23 +276,36 @@ HWY_INLINE void AdvanceCentre(const BatchStep& step, const Writer<kAll>& writer,
   }
 }
 
-// Corrects `change` in the lanes that are alive, until each has converged or
-// its corrections no longer halve; returns the lanes that have not. A round of
-// kCorrections corrections, `step->Round(active, change, &size)`, writes those
-// of the active lanes that have converged and returns them: they are left alone
-// while others go on. `size` is that of its last correction, squared.
-template <int kCorrections, typename Step, typename Change>
-HWY_INLINE Flag Iterate(Step* step, int lane, Change* change,
-                        CentreLanes* centre) {
+HWY_INLINE Flag Alive(const CentreLanes& centre, int lane) {
+  return Broadcast(0.0) < Load(centre.alive + lane);
+}
+
+// Corrects the lanes that are alive until each has converged or its corrections
+// no longer halve; returns the lanes that have not. A round of
+// Step::kCorrections corrections ends the step in those of the active lanes
+// that have converged: they are left alone while others go on. `one_round`
+// becomes whether the first would have ended it in all lanes.
+//
+// Not inlined: a loop's constants are kept in registers, which a step of one
+// round needs for itself.
+template <typename Step>
+HWY_NOINLINE Flag Iterate(const Step& step, int lane, CentreLanes* centre,
+                          bool* one_round) {
   constexpr int kMaxCorrections = 8;
-  Flag active = Broadcast(0.0) < Load(centre->alive + lane);
+  const Pack corrections = Broadcast(Step::kCorrections);
+  Flag active = Alive(*centre, lane);
+  if (None(active)) return active;
+  auto change = step.Start();
   Flag failed = Without(active, active);
   Pack previous = Broadcast(0.0);
   Pack iterations = Load(centre->iterations + lane);
-  for (int i = 0; i < kMaxCorrections; i += kCorrections) {
-    iterations = iterations + OrZero(active, Broadcast(kCorrections));
+  for (int i = 0; i < kMaxCorrections; i += Step::kCorrections) {
+    typename Step::Increment increment;
     Pack size;
-    const Flag done = step->Round(active, change, &size);
+    const Flag done = And(active, step.Round(change, &increment, &size));
+    iterations = iterations + OrZero(active, corrections);
+    if (i == 0) *one_round = All(done);
+    if (!None(done)) step.Commit(Writer<false>(done), increment);
     active = Without(active, done);
     if (None(active)) break;
     if (i > 0) {
@@ -301,6 +314,7 @@ HWY_INLINE Flag Iterate(Step* step, int lane, Change* change,
       active = Without(active, slow);
       if (None(active)) break;
     }
+    change = Step::Change(increment);
     previous = size;
   }
   Store(iterations, centre->iterations + lane);
