@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "emmy/diagnostics/invariants.h"
+#include "emmy/integrate/batch_blocks.h"
 #include "emmy/integrate/body_batch.h"
 #include "emmy/model/model_builder.h"
 #include "tests/support/paper_box.h"
@@ -46,7 +47,7 @@ inline ModelDescription MixedBodies(int count, Formulation formulation,
 inline ModelDescription AllKinds() {
   ModelDescription description = MixedBodies(19, Formulation::kAncf);
   for (RigidBodyDescription& body :
-       MixedBodies(11, Formulation::kConventional).rigid_bodies) {
+       MixedBodies(kBatchLanes + 3, Formulation::kConventional).rigid_bodies) {
     body.name = "conventional_" + body.name;
     description.rigid_bodies.push_back(std::move(body));
   }

@@ -111,29 +111,76 @@ TEST_F(BodyBatchTest, AStoredAndLoadedStateGoesOnWithTheSameBits) {
       SameState(StateAfter(middle, 40, {.time_step = kStep}), expected));
 }
 
+// Every body of `all` moves as it does alone, with the same iterations.
+void ExpectMovesAsAlone(const ModelDescription& all, int64_t iterations,
+                        const State& state, int num_steps) {
+  const BuiltModel together = BuildModel(all).value();
+  int64_t iterations_alone = 0;
+  for (size_t i = 0; i < all.rigid_bodies.size(); ++i) {
+    const BuiltModel alone = BuildModel(ModelOf(all.rigid_bodies[i])).value();
+    BodyBatch batch = MakeBatch(alone, {.time_step = kStep});
+    iterations_alone += batch.Step(num_steps).iterations;
+    State state_alone = alone.state;
+    batch.Store(&state_alone);
+    ExpectSameBody(alone.model.bodies()[0], state_alone,
+                   together.model.bodies()[i], state);
+  }
+  EXPECT_EQ(iterations, iterations_alone);
+}
+
 // Every number of lanes left over, and every place in a vector: alone, a body
-// is with lanes that are not alive, where the way of one round is not taken.
+// is with lanes that are not alive.
 TEST_F(BodyBatchTest, ABodyMovesAsIfItWereAlone) {
   for (const Formulation formulation :
        {Formulation::kAncf, Formulation::kConventional}) {
-    const ModelDescription all = MixedBodies(2 * kBatchLanes + 1, formulation);
+    const ModelDescription all = MixedBodies(kBatchLanes + 1, formulation);
     const BuiltModel together = BuildModel(all).value();
     BodyBatch batch = MakeBatch(together, {.time_step = kStep});
     const int64_t iterations = batch.Step(50).iterations;
     State state = together.state;
     batch.Store(&state);
-    int64_t iterations_alone = 0;
-    for (size_t i = 0; i < all.rigid_bodies.size(); ++i) {
-      const BuiltModel alone = BuildModel(ModelOf(all.rigid_bodies[i])).value();
-      BodyBatch batch_alone = MakeBatch(alone, {.time_step = kStep});
-      iterations_alone += batch_alone.Step(50).iterations;
-      State state_alone = alone.state;
-      batch_alone.Store(&state_alone);
-      ExpectSameBody(alone.model.bodies()[0], state_alone,
-                     together.model.bodies()[i], state);
-    }
-    EXPECT_EQ(iterations, iterations_alone);
+    ExpectMovesAsAlone(all, iterations, state, 50);
   }
+}
+
+// Where one round is enough in all lanes, a step is made without a loop.
+TEST_F(BodyBatchTest, AStepOfOneRoundIsThatOfABodyAlone) {
+  for (const bool ancf : {true, false}) {
+    const ModelDescription all =
+        ancf ? MixedBodies(2 * kBatchLanes, Formulation::kAncf, 1e10,
+                           Start::kRelaxed)
+             : MixedBodies(2 * kBatchLanes, Formulation::kConventional);
+    const BuiltModel together = BuildModel(all).value();
+    BodyBatch batch = MakeBatch(together, {.time_step = kStep});
+    const int64_t start = batch.Step(20).iterations;
+    const int64_t rest = batch.Step(30).iterations;
+    EXPECT_EQ(rest, (ancf ? 2 : 1) * 2 * kBatchLanes * 30);
+    State state = together.state;
+    batch.Store(&state);
+    ExpectMovesAsAlone(all, start + rest, state, 50);
+  }
+}
+
+// One lane of the last pack needs more, and no other; after Load one round is
+// tried.
+TEST_F(BodyBatchTest, AStepOfOneRoundWaitsForEveryPack) {
+  ModelDescription all = MixedBodies(kBatchLanes, Formulation::kConventional);
+  all.rigid_bodies.back().angular_velocity *= 100.0;
+  const BuiltModel together = BuildModel(all).value();
+  BodyBatch batch = MakeBatch(together, {.time_step = kStep});
+  State state = together.state;
+  int64_t iterations = 0;
+  for (int i = 0; i < 50; ++i) {
+    batch.Load(state);
+    const int64_t now = batch.Step(1).iterations;
+    if (i >= 20) {
+      EXPECT_GT(now, kBatchLanes);
+      EXPECT_LE(now, kBatchLanes + 3);
+    }
+    iterations += now;
+    batch.Store(&state);
+  }
+  ExpectMovesAsAlone(all, iterations, state, 50);
 }
 
 // Δe is Δt w̄ of the very rates that are committed: what is missing would be

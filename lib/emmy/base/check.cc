@@ -8,8 +8,9 @@ namespace emmy {
 
 void FailCheck(const char* file, int line, const char* condition,
                const std::string& values) {
-  std::fprintf(stderr, "%s:%d: check failed: %s; values: %s\n", file, line,
-               condition, values.c_str());
+  static_cast<void>(std::fprintf(stderr,
+                                 "%s:%d: check failed: %s; values: %s\n", file,
+                                 line, condition, values.c_str()));
   std::abort();
 }
 

@@ -28,7 +28,7 @@ absl::StatusOr<RigidBodyInertia> RigidBodyInertia::FromTensor(
   inertia.second_moment = 0.5 * tensor.trace() * Matrix3d::Identity() - tensor;
   const Eigen::SelfAdjointEigenSolver<Matrix3d> solver(inertia.second_moment,
                                                        Eigen::EigenvaluesOnly);
-  const Vector3d moments = solver.eigenvalues();
+  const Vector3d& moments = solver.eigenvalues();
   // Below this an eigenvalue is rounding of the subtraction, not a moment.
   const double least = 1e-14 * tensor.cwiseAbs().maxCoeff();
   if (!(moments(0) > least)) {

@@ -1,9 +1,9 @@
 // How a batch keeps its bodies: sixteen to a block, one array for each number.
 //
 // A lane is a body. Eight doubles are 64 bytes, the widest vector there is: a
-// block is two of them, or more narrower ones, which are stepped in turn. All
-// arrays are indexed [entry][lane]; gradient vectors and rates have the entries
-// of e₁, then e₂, then e₃.
+// block is two of them, or more narrower ones. All arrays are indexed
+// [entry][lane]; gradient vectors and rates have the entries of e₁, then e₂,
+// then e₃.
 
 #ifndef EMMY_INTEGRATE_BATCH_BLOCKS_H_
 #define EMMY_INTEGRATE_BATCH_BLOCKS_H_
@@ -45,9 +45,12 @@ struct CentreLanes {
   CompensatedLanes<3> velocity;
   // 1 for a body that is stepped, 0 for one that has failed and for padding.
   alignas(64) Lanes alive;
-  Lanes iterations;  // Done so far.
+  Lanes iterations;  // Done before this call.
   Lanes motion[3];   // Without gravity: Δt v̄ and its rounding error.
   Lanes motion_error[3];
+  // Whether the first round of corrections ended the last step in all lanes
+  // that are stepped together, by the first of these lanes.
+  bool one_round[kBatchLanes];
 };
 
 // ANCF bodies in principal axes.

@@ -3,8 +3,7 @@
 
 #include "emmy/integrate/batch_kernels.h"
 
-#include <array>
-#include <cstddef>
+#include <cstdint>
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "emmy/integrate/batch_kernels.cc"
@@ -20,19 +19,17 @@ HWY_BEFORE_NAMESPACE();
 namespace emmy {
 namespace HWY_NAMESPACE {
 
-// Fetches a block while another is stepped, the same part of it in each step.
+// Fetches a block while another is stepped, in parts until it is there.
 template <typename Block>
 class Fetch {
  public:
   HWY_INLINE Fetch(const Block* block, int64_t num_steps)
       : position_(reinterpret_cast<const char*>(block)),
         end_(block == nullptr ? position_ : position_ + sizeof(Block)),
-        num_lines_((int64_t{sizeof(Block)} / kLine + num_steps - 1) /
-                   num_steps) {}
+        part_((int64_t{sizeof(Block)} / kLine + num_steps - 1) / num_steps) {}
 
-  HWY_INLINE void Step() {
-    if (position_ == end_) return;
-    for (int64_t i = 0; i < num_lines_ && position_ != end_; ++i) {
+  HWY_INLINE void FetchPart() {
+    for (int64_t i = 0; i < part_ && position_ != end_; ++i) {
       __builtin_prefetch(position_, 1, 2);
       position_ += kLine;
     }
@@ -44,12 +41,12 @@ class Fetch {
 
   const char* position_;
   const char* end_;
-  int64_t num_lines_;
+  int64_t part_;  // Lines.
 };
 
 // The step of the packs from `lane` on that are stepped together, if one round
-// ends it in all their lanes; else nothing is changed. Without a loop, that the
-// numbers between Round and Commit stay in registers.
+// ends it in all their lanes; else nothing is changed. Without a loop, so that
+// fewer of the numbers between Round and Commit leave the registers.
 template <typename PackStep, typename Block>
 HWY_INLINE bool StepInOneRound(const BatchStep& step, int lane, Block* block) {
   const PackStep pack(step, lane, block);
@@ -78,32 +75,27 @@ template <typename PackStep, typename Block>
 HWY_INLINE void Advance(const BatchStep& step, int64_t num_steps, Block* block,
                         const Block* next, LaneFallback* fallback) {
   if (num_steps == 0) return;
-  Fetch<Block> fetch(next, num_steps);
-  // Packs that are stepped together, and what is known of them.
-  struct Group {
-    bool one_round = true;  // Was enough in the last step.
-    int64_t num_one_round = 0;
-  };
   constexpr int kGroupLanes = PackStep::kTogether * kPackLanes;
-  std::array<Group, size_t{kBatchLanes / kGroupLanes}> groups;
+  static_assert(kBatchLanes % kGroupLanes == 0);
   for (int lane = 0; lane < kBatchLanes; lane += kPackLanes) {
     PrepareCentre(step, lane, &block->centre);
   }
+  Fetch<Block> fetch(next, num_steps);
+  int64_t steps_of_one_round[kBatchLanes] = {};  // By a group's first lane.
   for (int64_t i = 0; i < num_steps; ++i) {
-    fetch.Step();
-    int first = -kGroupLanes;
-    for (Group& group : groups) {
-      first += kGroupLanes;
-      if (group.one_round && StepInOneRound<PackStep>(step, first, block)) {
-        ++group.num_one_round;
+    fetch.FetchPart();
+    for (int first = 0; first < kBatchLanes; first += kGroupLanes) {
+      bool& one_round = block->centre.one_round[first];
+      if (one_round && StepInOneRound<PackStep>(step, first, block)) {
+        ++steps_of_one_round[first];
         continue;
       }
-      group.one_round = true;
+      one_round = true;
       for (int lane = first; lane < first + kGroupLanes; lane += kPackLanes) {
-        bool one_round = false;
+        bool pack_one_round = false;
         const Flag left = Iterate(PackStep(step, lane, block), lane,
-                                  &block->centre, &one_round);
-        group.one_round = group.one_round && one_round;
+                                  &block->centre, &pack_one_round);
+        one_round = one_round && pack_one_round;
         if (None(left)) continue;
         HWY_ALIGN double flags[kBatchLanes];
         Store(OrZero(left, Broadcast(1.0)), flags);
@@ -113,14 +105,12 @@ HWY_INLINE void Advance(const BatchStep& step, int64_t num_steps, Block* block,
       }
     }
   }
-  int lane = 0;
-  for (const Group& group : groups) {
-    const Pack iterations = Broadcast(PackStep::kCorrections *
-                                      static_cast<double>(group.num_one_round));
-    for (const int end = lane + kGroupLanes; lane < end; lane += kPackLanes) {
-      double* const so_far = block->centre.iterations + lane;
-      Store(Load(so_far) + iterations, so_far);
-    }
+  for (int lane = 0; lane < kBatchLanes; lane += kPackLanes) {
+    const int64_t steps = steps_of_one_round[lane / kGroupLanes * kGroupLanes];
+    double* const iterations = block->centre.iterations + lane;
+    Store(Load(iterations) +
+              Broadcast(PackStep::kCorrections * static_cast<double>(steps)),
+          iterations);
   }
 }
 

@@ -67,6 +67,7 @@ void Load(const ModelBody& body, const State& state, int lane,
   Load(state.velocity, body.velocity_offset, lane, &centre->velocity);
   centre->alive[lane] = 1.0;
   centre->iterations[lane] = 0.0;
+  centre->one_round[lane] = true;
 }
 
 // The sums and predictions of a step, as the kernels make them.
@@ -109,7 +110,7 @@ void Predict(const BatchStep& step, const double* change, int lane,
 void SetConstants(const AncfRigidBody& body, double time_step, int lane,
                   AncfBlock* block) {
   const Vector3d moment = body.second_moment().diagonal();
-  const Vector6d b = body.penalty_stiffness();
+  const Vector6d& b = body.penalty_stiffness();
   const Vector6d c = (0.25 * time_step * time_step) * b;
   const Vector6d impulse = time_step * b;
   Scatter(moment.data(), lane, block->moment);

@@ -184,7 +184,7 @@ void BodyBatch::Data::RunBlock(int64_t num_steps, size_t index,
 // for a slower one.
 template <typename Block>
 void BodyBatch::Data::Run(int64_t num_steps, Group<Block>* group, Work* work) {
-  constexpr size_t kMostAtATime = 32;
+  constexpr size_t kMostAtATime = 16;
   const size_t num_blocks = group->blocks.size();
   // Several portions a thread, also where there are few blocks.
   const size_t portion =

@@ -83,8 +83,8 @@ class ConventionalPackStep {
   // The end of the step.
   template <bool kAll>
   HWY_INLINE void Commit(const Writer<kAll>& writer,
-                         const Increment& change) const {
-    const Pack3 high = Change(change);
+                         const Increment& increment) const {
+    const Pack3 high = Change(increment);
     const Pack half = Broadcast(0.5);
     CompensatedLanes<3>& rate = block_.angular_velocity;
     // (ROT-5): ½ Θ = Δt ½ W̄.
@@ -92,9 +92,12 @@ class ConventionalPackStep {
                        MulAdd(half, high, Load3(rate.compensation, lane_));
     const Pack3 half_turn = Broadcast(0.5 * step_.time_step) * mean;
     // What the next step begins with comes first.
-    writer.Add(change.x, rate.value[0] + lane_, rate.compensation[0] + lane_);
-    writer.Add(change.y, rate.value[1] + lane_, rate.compensation[1] + lane_);
-    writer.Add(change.z, rate.value[2] + lane_, rate.compensation[2] + lane_);
+    writer.Add(increment.x, rate.value[0] + lane_,
+               rate.compensation[0] + lane_);
+    writer.Add(increment.y, rate.value[1] + lane_,
+               rate.compensation[1] + lane_);
+    writer.Add(increment.z, rate.value[2] + lane_,
+               rate.compensation[2] + lane_);
     const Pack3 acceleration[1] = {Broadcast(step_.inverse_time_step) * high};
     Predict(acceleration, writer, lane_, &block_.acceleration);
     AdvanceCentre(step_, writer, lane_, &block_.centre);

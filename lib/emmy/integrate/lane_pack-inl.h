@@ -284,7 +284,9 @@ HWY_INLINE Flag Alive(const CentreLanes& centre, int lane) {
 // no longer halve; returns the lanes that have not. A round of
 // Step::kCorrections corrections ends the step in those of the active lanes
 // that have converged: they are left alone while others go on. `one_round`
-// becomes whether the first would have ended it in all lanes.
+// becomes whether the first ended it in all lanes. A Step has Start, where to
+// begin; Round, which gives an increment, the square of its last correction and
+// the lanes where it is the last; Change, of the rates; and Commit.
 //
 // Not inlined: a loop's constants are kept in registers, which a step of one
 // round needs for itself.
@@ -293,6 +295,7 @@ HWY_NOINLINE Flag Iterate(const Step& step, int lane, CentreLanes* centre,
                           bool* one_round) {
   constexpr int kMaxCorrections = 8;
   const Pack corrections = Broadcast(Step::kCorrections);
+  *one_round = false;
   Flag active = Alive(*centre, lane);
   if (None(active)) return active;
   auto change = step.Start();
