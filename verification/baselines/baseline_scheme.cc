@@ -21,11 +21,11 @@ class Stepper {
   StepReport Step(State& state) {
     // The acceleration of generalised α is not a function of q and w: it is
     // kept here as long as the run goes on, from the state it was left in.
-    VectorXd position = Positions(state);
-    VectorXd velocity = Velocities(state);
+    const VectorXd position = Positions(state);
+    const VectorXd velocity = Velocities(state);
     if (state.step != step_ || position != motion_.position ||
         velocity != motion_.velocity) {
-      motion_ = StartMotion(system_, std::move(position), std::move(velocity));
+      motion_ = StartMotion(system_, position, velocity);
     }
     StepReport report = Advance();
     if (!report.ok()) return report;

@@ -73,6 +73,8 @@ namespace hn = hwy::HWY_NAMESPACE;
 
 // The line of 64 bytes at `address`, to where the next panel will find it.
 HWY_INLINE void PrefetchToSecondLevel(std::uintptr_t address) {
+  // A number, as it may lie beyond the panels.
+  // NOLINTNEXTLINE(performance-no-int-to-ptr)
   __builtin_prefetch(reinterpret_cast<const void*>(address), 0, 2);
 }
 

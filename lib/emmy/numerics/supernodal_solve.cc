@@ -278,8 +278,9 @@ void SupernodalSolve<Scalar>::Forward(const VectorXd& b, double to_unit,
   }
   const bool is_top = part == &top_;
   if (is_top) {
-    for (const Part& branch : parts_)
+    for (const Part& branch : parts_) {
       work_.tail(branch.top.size()) += branch.top;
+    }
   }
   part->top.setZero();
   const int top_first = top_.first_unknown;

@@ -7,7 +7,7 @@
 namespace emmy {
 
 SymmetricBlockMatrix::SymmetricBlockMatrix(
-    int num_blocks, std::vector<std::pair<int, int>> pairs)
+    int num_blocks, const std::vector<std::pair<int, int>>& pairs)
     : num_blocks_(num_blocks), rows_(static_cast<size_t>(num_blocks)) {
   for (const auto& [row, column] : pairs) {
     rows_[static_cast<size_t>(std::min(row, column))].push_back(

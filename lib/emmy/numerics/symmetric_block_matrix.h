@@ -25,7 +25,8 @@ class SymmetricBlockMatrix {
 
   // `pairs` are the (row, column) blocks that may be non-zero, in any order
   // and with repetitions; a pair and its mirror image are the same.
-  SymmetricBlockMatrix(int num_blocks, std::vector<std::pair<int, int>> pairs);
+  SymmetricBlockMatrix(int num_blocks,
+                       const std::vector<std::pair<int, int>>& pairs);
 
   int num_blocks() const { return num_blocks_; }
 
