@@ -75,7 +75,7 @@ class OdeSystem : public RigidSystem {
   static Vector3d Ours(const dReal* v) { return {v[0], v[1], v[2]}; }
 
   void AddBody(const RigidMotion& motion) {
-    const dBodyID body = dBodyCreate(world_);
+    dBodyID body = dBodyCreate(world_);
     dMass mass;
     dMassSetParameters(&mass, motion.mass, 0.0, 0.0, 0.0, motion.inertia(0),
                        motion.inertia(1), motion.inertia(2), 0.0, 0.0, 0.0);
@@ -97,14 +97,14 @@ class OdeSystem : public RigidSystem {
   }
 
   void AddJoint(const PointPair& pair) {
-    const dJointID joint = dJointCreateBall(world_, nullptr);
+    dJointID joint = dJointCreateBall(world_, nullptr);
     dJointAttach(joint, bodies_[pair.bodies[0]], bodies_[pair.bodies[1]]);
     const Vector3d place = Place(pair, 0);
     dJointSetBallAnchor(joint, place(0), place(1), place(2));
   }
 
   void AddSpring(const PairSpring& spring) {
-    const dJointID joint = dJointCreateDBall(world_, nullptr);
+    dJointID joint = dJointCreateDBall(world_, nullptr);
     dJointAttach(joint, bodies_[spring.ends.bodies[0]],
                  bodies_[spring.ends.bodies[1]]);
     const Vector3d first = Place(spring.ends, 0);

@@ -122,7 +122,8 @@ ModelDescription FreeBoxes(int n, Formulation formulation) {
     box.inertia = BoxInertia{.size = {3.0, 2.0, 1.0}, .density = 2700.0};
     box.formulation = formulation;
     if (formulation == Formulation::kAncf) box.penalty = kPenalty;
-    box.position = {5.0 * (i % 10), 5.0 * (i / 10 % 10), 5.0 * (i / 100)};
+    const int column = i % 10, row = i / 10 % 10, layer = i / 100;
+    box.position = 5.0 * Vector3d(column, row, layer);
     box.angular_velocity = {0.3 + 0.1 * std::cos(1.7 * i),
                             0.5 + 0.1 * std::sin(0.9 * i),
                             0.8 + 0.1 * std::cos(1.3 * i)};
