@@ -27,8 +27,10 @@ constexpr ReadingTimes kTwoSeconds = {.interval = 0.05, .duration = 2.0};
 
 // Halvings of `first`.
 std::vector<double> Halvings(double first, int count) {
-  std::vector<double> steps;
-  for (int i = 0; i < count; ++i) steps.push_back(std::ldexp(first, -i));
+  std::vector<double> steps(static_cast<size_t>(count));
+  for (int i = 0; i < count; ++i) {
+    steps[static_cast<size_t>(i)] = std::ldexp(first, -i);
+  }
   return steps;
 }
 

@@ -156,7 +156,7 @@ absl::StatusOr<ClaimResult> PendulumPhase(const ClaimSetting& setting) {
   const double half_period = 0.5 * pendulum.Period();
   const double duration = IsFull(setting) ? 2000.0 : 200.0;
   // The first passage is a quarter of a period after the release.
-  const int count = static_cast<int>(duration / half_period + 0.5);
+  const int count = static_cast<int>(std::lround(duration / half_period));
   const double expected = (count - 0.5) * half_period;
   std::vector<double> errors;
   constexpr double kLargest = 1.0 / 128.0;

@@ -241,7 +241,7 @@ absl::StatusOr<ClaimResult> InternalEnergyFigure(
                 .script = kFigure6Script,
                 .width = 960,
                 .height = 760};
-  for (double i = 0.0; i <= std::round(kPaperDuration / kReading); i += 1.0) {
+  for (int i = 0; i <= std::lround(kPaperDuration / kReading); ++i) {
     figure.columns[0].values.push_back(i * kReading);
   }
   for (const double time_step : {1e-3, 1e-2, 1e-1}) {

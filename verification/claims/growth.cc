@@ -20,9 +20,9 @@ constexpr double kPercentile = 0.9;
 // Numbers of steps at which the errors are read: 10³, 10^3.5, …
 std::vector<int64_t> Readings(Level level) {
   std::vector<int64_t> steps;
-  const double last = level == Level::kFull ? 6.0 : 5.0;
-  for (double power = 3.0; power <= last; power += 0.5) {
-    steps.push_back(std::llround(std::pow(10.0, power)));
+  const int last = level == Level::kFull ? 6 : 5;
+  for (int half = 2 * 3; half <= 2 * last; ++half) {
+    steps.push_back(std::llround(std::pow(10.0, 0.5 * half)));
   }
   return steps;
 }
@@ -54,7 +54,7 @@ absl::Status AddMember(const ModelDescription& description,
   const double momentum = Norm(start.angular_momentum).ToDouble();
   for (size_t i = 0; i < growth->steps.size(); ++i) {
     const auto target = static_cast<int64_t>(growth->steps[i]);
-    const absl::Status status = run->Advance(target - run->state().step);
+    absl::Status status = run->Advance(target - run->state().step);
     if (!status.ok()) return status;
     const Invariants now = MeasureInvariants(run->model(), run->state());
     growth->energy[i].push_back(
