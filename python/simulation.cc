@@ -138,17 +138,19 @@ void Simulation::Run(const RunOptions& options) {
   bool is_finite = true;
   {
     const pybind11::gil_scoped_release unlocked;
-    report = Simulate(integrator_, state, options.num_steps,
-                      [&](const State& reached, const StepReport& step) {
-                        monitor_.Observe(reached);
-                        iterations_ = step.iterations;
-                        is_finite = IsFinite(monitor_.latest());
-                        if (!is_finite) return false;
-                        const int64_t done = reached.step - first;
-                        if (records && reached.step % options.record_every == 0)
-                          record();
-                        return listener.Listen(done);
-                      });
+    report =
+        Simulate(integrator_, state, options.num_steps,
+                 [&](const State& reached, const StepReport& step) {
+                   monitor_.Observe(reached);
+                   iterations_ = step.iterations;
+                   is_finite = IsFinite(monitor_.latest());
+                   if (!is_finite) return false;
+                   const int64_t done = reached.step - first;
+                   if (records && reached.step % options.record_every == 0) {
+                     record();
+                   }
+                   return listener.Listen(done);
+                 });
     if (is_finite) record();  // The last step reached.
   }
   if (records) history_ = history;

@@ -27,6 +27,7 @@ TEST(CheckTest, AConditionThatHoldsNeitherStopsNorFormats) {
 
 TEST(CheckTest, IsOneStatementAfterIf) {
   bool reached = false;
+  // NOLINTNEXTLINE(google-readability-braces-around-statements)
   if (reached)
     EMMY_CHECK(false, "not reached");
   else

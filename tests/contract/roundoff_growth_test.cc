@@ -94,8 +94,9 @@ class GrowthLawTest : public ::testing::Test {
       double sum = 0.0;
       int64_t done = 0;
       for (size_t k = 0; k < steps.size(); ++k) {
-        for (; done < steps[k]; ++done)
+        for (; done < steps[k]; ++done) {
           sum += random.Uniform(-1.0, 1.0) + drift;
+        }
         errors[k].push_back(sum);
       }
     }

@@ -134,21 +134,22 @@ TEST_F(SchemaTest, AcceptsTheSampleAndTheReaderDoesToo) {
 }
 
 TEST_F(SchemaTest, AgreesWithTheReaderWhenAnyValueIsMissing) {
-  ForEachPlace(sample_, json::json_pointer(),
-               [&](const json::json_pointer& place) {
-                 json changed = sample_;
-                 json& parent = changed[place.parent_pointer()];
-                 if (parent.is_object()) {
-                   parent.erase(place.back());
-                 } else {
-                   parent.erase(static_cast<size_t>(std::stoi(place.back())));
-                 }
-                 // Which bodies have a penalty and that there are bodies at all
-                 // is checked when the model is built.
-                 if (place.back() == "penalty" || place.back() == "formulation")
-                   return;
-                 ExpectSameVerdict(changed, "without " + place.to_string());
-               });
+  ForEachPlace(
+      sample_, json::json_pointer(), [&](const json::json_pointer& place) {
+        json changed = sample_;
+        json& parent = changed[place.parent_pointer()];
+        if (parent.is_object()) {
+          parent.erase(place.back());
+        } else {
+          parent.erase(static_cast<size_t>(std::stoi(place.back())));
+        }
+        // Which bodies have a penalty and that there are bodies at all
+        // is checked when the model is built.
+        if (place.back() == "penalty" || place.back() == "formulation") {
+          return;
+        }
+        ExpectSameVerdict(changed, "without " + place.to_string());
+      });
   EXPECT_GT(accepted_, 20);
   EXPECT_GT(rejected_, 100);
 }

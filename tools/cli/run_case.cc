@@ -145,8 +145,9 @@ RunResult RunCase(const RunOptions& options,
                         if (reached.step % output_every == 0) {
                           recorder.Record(reached, step.iterations);
                         }
-                        if (recorder.status().ok())
+                        if (recorder.status().ok()) {
                           checkpointer.Stepped(reached.step);
+                        }
                         progress.Update(reached.step);
                         return files_ok() && !IsInterrupted();
                       });

@@ -248,8 +248,9 @@ WorkErrors CheckStep(const Run& run, const State& before, double time_step) {
       static_cast<double>(std::abs(Wide(change.hi) + Wide(change.lo) - work) /
                           (Wide(kUnitRoundoff) * (energy + size)));
   RealVector momentum_change;
-  for (int i = 0; i < 3; ++i)
+  for (int i = 0; i < 3; ++i) {
     momentum_change(i) = Wide(turn[i].hi) + Wide(turn[i].lo);
+  }
   errors.moment = static_cast<double>(
       (momentum_change - moment).norm() /
       (Wide(kUnitRoundoff) *
