@@ -23,7 +23,9 @@ using ::testing::Not;
 
 class WriteReportTest : public ::testing::Test {
  protected:
-  WriteReportTest() : path_(std::getenv("PATH")) {
+  WriteReportTest() {
+    const char* const path = std::getenv("PATH");
+    if (path != nullptr) path_ = path;
     fs::remove_all(directory_);
     fs::create_directories(directory_);
   }
@@ -36,7 +38,7 @@ class WriteReportTest : public ::testing::Test {
     return text.str();
   }
 
-  const std::string path_;
+  std::string path_;
   // Its own for each test: they may run at the same time.
   const fs::path directory_ =
       fs::path(::testing::TempDir()) /
