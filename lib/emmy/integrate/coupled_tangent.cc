@@ -55,7 +55,7 @@ SymmetricBlockMatrix CoupledTangent::MakeMatrix(const Structure& structure) {
     }
   }
   return SymmetricBlockMatrix(
-      structure.num_vectors() + structure.num_constraints(), std::move(pairs));
+      structure.num_vectors() + structure.num_constraints(), pairs);
 }
 
 CoupledTangent::CoupledTangent(const Structure& structure, double time_step,

@@ -47,8 +47,7 @@ SymmetricBlockMatrix JointNet::MakeMatrix(
       }
     }
   }
-  return SymmetricBlockMatrix(static_cast<int>(joints.size()),
-                              std::move(pairs));
+  return SymmetricBlockMatrix(static_cast<int>(joints.size()), pairs);
 }
 
 JointNet::JointNet(const Structure& structure,
