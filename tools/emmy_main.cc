@@ -2,6 +2,7 @@
 // tools/cli; what they share is the exit status (exit_status.h).
 
 #include <CLI/CLI.hpp>
+#include <cstdio>
 #include <exception>
 #include <string>
 #include <vector>
@@ -70,12 +71,23 @@ Exit status: 0 done; 1 a check failed or the computation could not go on;
                     kExitBadInput);
 }
 
+// The exit status, once standard output has taken what was printed: a full
+// disk is seen only when the buffer is emptied.
+int Finish(int exit_status) {
+  if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return exit_status;
+  const ExitStatus lost =
+      PrintError(absl::DataLossError("emmy: standard output could not be "
+                                     "written; what was printed is lost"),
+                 kExitFailed);
+  return exit_status == kExitDone ? lost : exit_status;
+}
+
 }  // namespace
 }  // namespace emmy
 
 int main(int argc, char** argv) {
   try {
-    return emmy::Main(argc, argv);
+    return emmy::Finish(emmy::Main(argc, argv));
   } catch (const std::exception& error) {  // Such as: out of memory.
     return emmy::PrintError(
         absl::InternalError(std::string("internal error: ") + error.what()),

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <filesystem>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
@@ -230,6 +231,14 @@ TEST_F(HelpTest, FitsATerminal) {
       EXPECT_LE(line.size(), 80u) << line;
     }
   }
+}
+
+// What is printed waits in a buffer, and is lost where that is emptied last.
+TEST_F(HelpTest, StandardOutputThatTakesNothingIsAnError) {
+  if (!std::filesystem::exists("/dev/full")) GTEST_SKIP() << "no /dev/full";
+  const ProgramResult result = Shell("\"$EMMY\" --version > /dev/full");
+  EXPECT_EQ(result.exit_status, 1);
+  EXPECT_THAT(result.err, HasSubstr("standard output could not be written"));
 }
 
 TEST_F(HelpTest, VersionNamesProgramAndBuild) {

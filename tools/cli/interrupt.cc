@@ -9,14 +9,14 @@ volatile std::sig_atomic_t interrupted = 0;
 
 void OnSignal(int signal) {
   interrupted = 1;
-  std::signal(signal, SIG_DFL);
+  static_cast<void>(std::signal(signal, SIG_DFL));
 }
 
 }  // namespace
 
 void CatchInterrupts() {
-  std::signal(SIGINT, OnSignal);
-  std::signal(SIGTERM, OnSignal);
+  static_cast<void>(std::signal(SIGINT, OnSignal));
+  static_cast<void>(std::signal(SIGTERM, OnSignal));
 }
 
 bool IsInterrupted() { return interrupted != 0; }

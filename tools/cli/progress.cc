@@ -64,16 +64,17 @@ void Progress::Update(int64_t step) {
   visible_ = true;
   const double elapsed = std::chrono::duration<double>(now - start_).count();
   // To the left margin, the text, and away with the rest of the line.
-  std::fprintf(stderr, "\r%s\033[K",
-               ProgressText(first_step_, step, num_steps_, elapsed).c_str());
-  std::fflush(stderr);
+  static_cast<void>(std::fprintf(
+      stderr, "\r%s\033[K",
+      ProgressText(first_step_, step, num_steps_, elapsed).c_str()));
+  static_cast<void>(std::fflush(stderr));
 }
 
 void Progress::Clear() {
   if (!visible_) return;
   visible_ = false;
-  std::fputs("\r\033[K", stderr);
-  std::fflush(stderr);
+  static_cast<void>(std::fputs("\r\033[K", stderr));
+  static_cast<void>(std::fflush(stderr));
 }
 
 }  // namespace emmy

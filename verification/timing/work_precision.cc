@@ -96,7 +96,7 @@ std::string WorkPrecisionJson(const std::vector<WorkPrecisionPoint>& points) {
 
 absl::Status WriteWorkPrecision(const std::vector<WorkPrecisionPoint>& points,
                                 const std::string& directory) {
-  const absl::Status status =
+  absl::Status status =
       WriteTextFile(absl::StrCat(directory, "/work_precision.json"),
                     WorkPrecisionJson(points));
   if (!status.ok()) return status;
