@@ -27,11 +27,12 @@ TEST(CheckTest, AConditionThatHoldsNeitherStopsNorFormats) {
 
 TEST(CheckTest, IsOneStatementAfterIf) {
   bool reached = false;
-  // NOLINTNEXTLINE(google-readability-braces-around-statements)
+  // NOLINTBEGIN(google-readability-braces-around-statements)
   if (reached)
     EMMY_CHECK(false, "not reached");
   else
     reached = true;
+  // NOLINTEND(google-readability-braces-around-statements)
   EXPECT_TRUE(reached);
 }
 
