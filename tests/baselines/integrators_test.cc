@@ -5,6 +5,7 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <functional>
 #include <string>
 
@@ -48,8 +49,8 @@ TEST_P(IntegratorTest, IsOfOrderTwoOnAnOscillator) {
   const ElasticSystem system = Oscillator(1.0);
   const auto error = [&](double dt) {
     Motion motion = Start(system, 1.0, 0.5);
-    const auto steps = std::lround(2.0 / dt);
-    for (long i = 0; i < steps; ++i) {
+    const int64_t steps = std::lround(2.0 / dt);
+    for (int64_t i = 0; i < steps; ++i) {
       EXPECT_TRUE(GetParam().step(system, dt, &motion).ok());
     }
     return std::abs(motion.position(0) - std::cos(2.0) - 0.5 * std::sin(2.0));

@@ -41,7 +41,7 @@ TYPED_TEST(AttitudeTest, QuaternionAndMatrixAreInverse) {
 
 TYPED_TEST(AttitudeTest, RotationVectorTurnsCounterclockwise) {
   using T = TypeParam;
-  const T half_pi = boost::math::constants::half_pi<T>();
+  const T& half_pi = boost::math::constants::half_pi<T>();
   Matrix3<T> expected;
   expected << 0, -1, 0, 1, 0, 0, 0, 0, 1;
   EXPECT_LE(

@@ -57,7 +57,7 @@ absl::StatusOr<StepFunction> OneUlpOff(const Model& model,
   absl::StatusOr<StepFunction> step = EnergyMomentumScheme(model, options);
   if (!step.ok()) return step.status();
   return StepFunction([step = *std::move(step)](State& state) {
-    const StepReport report = step(state);
+    StepReport report = step(state);
     if (state.step == 1000) {
       double& rate = state.velocity.value(3);
       rate = std::nextafter(rate, 2.0);

@@ -42,7 +42,7 @@ Matrix3d ExactCompliance(const AncfRigidBody& body, const Deviation& d,
   const Matrix3d strain = StrainMatrix(e);
   const Matrix3d end = frame * (Matrix3d::Identity() + Hat(d.turn) + strain);
   const Matrix3d mean = frame * (Matrix3d::Identity() - Hat(d.turn) + strain);
-  const Vector6d b = body.penalty_stiffness();
+  const Vector6d& b = body.penalty_stiffness();
   const double quarter = 0.25 * kTimeStep * kTimeStep;
   Eigen::Matrix<double, 9, 9> k = Eigen::Matrix<double, 9, 9>::Zero();
   for (int i = 0; i < 3; ++i) {

@@ -62,6 +62,7 @@ TEST(FigureTest, EveryFigureOfAClaimIsDrawn) {
     ASSERT_FALSE(outcome.result.figures.empty()) << id;
     for (const Figure& figure : outcome.result.figures) {
       const absl::Status status = WriteFigure(figure, ::testing::TempDir());
+      // NOLINTNEXTLINE(cert-env33-c): a program of this name is meant.
       if (absl::IsUnavailable(status) && std::system("gnuplot -V") != 0) {
         GTEST_SKIP() << status;
       }

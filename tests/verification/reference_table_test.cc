@@ -32,7 +32,7 @@ ReferenceTable Sample() {
 }
 
 std::string Write(const std::string& text) {
-  const std::string path = ::testing::TempDir() + "/reference_table_test.json";
+  std::string path = ::testing::TempDir() + "/reference_table_test.json";
   EXPECT_TRUE(WriteTextFile(path, text).ok());
   return path;
 }

@@ -27,7 +27,7 @@ std::string Row(const std::string& name, double time, const std::string& unit,
 
 // A file of Google Benchmark's with these rows.
 std::string FileWith(const std::string& name, const std::string& rows) {
-  const std::string path = ::testing::TempDir() + name;
+  std::string path = ::testing::TempDir() + name;
   std::ofstream(path) << R"({"context": {"date": "2026-01-02", "num_cpus": 2,
     "mhz_per_cpu": 2600, "caches": [], "library_build_type": "release"},
     "benchmarks": [)" << rows
