@@ -109,7 +109,7 @@ TEST(CoupledStepTest, DenseAndSparseFactorsGiveTheSameMotion) {
   TestRun sparse(
       BoxWithTruss(),
       IntegratorOptions{.time_step = 1e-3,
-                        .factor_method = SymmetricFactor::Method::kSimplicial});
+                        .factor_method = SymmetricFactor::Method::kPanels});
   ASSERT_TRUE(dense.Advance(500));
   ASSERT_TRUE(sparse.Advance(500));
   EXPECT_LE(LargestDifference(dense.state(), sparse.state()), 1e-12);
@@ -284,8 +284,8 @@ TEST(CoupledStepTest, OneSparseFactorServesManySteps) {
   ASSERT_TRUE(built.ok());
   State state = built->state;
   auto integrator = EnergyMomentumIntegrator::Create(
-      built->model, {.time_step = 1e-3,
-                     .factor_method = SymmetricFactor::Method::kSimplicial});
+      built->model,
+      {.time_step = 1e-3, .factor_method = SymmetricFactor::Method::kPanels});
   ASSERT_TRUE(integrator.ok());
   for (int i = 0; i < 200; ++i) ASSERT_TRUE(integrator->Step(state).ok());
   EXPECT_LE(integrator->num_factorizations(), 50);

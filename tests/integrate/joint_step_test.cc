@@ -67,10 +67,10 @@ class JointStepTest : public ::testing::TestWithParam<Kind> {
 
   // By the system of all coordinates and multipliers.
   static TestRun Coupled() {
-    return TestRun(GetParam().model(),
-                   IntegratorOptions{
-                       .time_step = kTimeStep,
-                       .factor_method = SymmetricFactor::Method::kSimplicial});
+    return TestRun(
+        GetParam().model(),
+        IntegratorOptions{.time_step = kTimeStep,
+                          .factor_method = SymmetricFactor::Method::kPanels});
   }
 };
 

@@ -39,14 +39,6 @@ SparseMatrix Grid(int size, uint64_t seed) {
   return matrix;
 }
 
-struct Factor {
-  explicit Factor(const SparseMatrix& matrix) : ldlt(matrix) {}
-  const SparseMatrix& lower() const {
-    return ldlt.matrixL().nestedExpression();
-  }
-  Eigen::SimplicialLDLT<SparseMatrix> ldlt;
-};
-
 template <typename Scalar>
 class SupernodalSolveTest : public ::testing::Test {
  protected:
@@ -76,35 +68,81 @@ TYPED_TEST_SUITE(SupernodalSolveTest, Scalars);
 TYPED_TEST(SupernodalSolveTest, SolvesToThePrecisionOfItsPanels) {
   for (const int size : {1, 2, 5, 12, 30}) {
     const SparseMatrix matrix = Grid(size, 5);
-    const Factor factor(matrix);
     SupernodalSolve<TypeParam> solve;
-    solve.Analyze(factor.lower(), factor.ldlt.permutationP());
-    solve.Update(factor.lower(), factor.ldlt.vectorD());
+    solve.Analyze(matrix);
+    ASSERT_TRUE(solve.Factorize(matrix));
     EXPECT_LE(this->Error(matrix, &solve), this->Bound(matrix)) << size;
   }
 }
 
-TYPED_TEST(SupernodalSolveTest, TakesTheNumbersOfANewFactor) {
+TYPED_TEST(SupernodalSolveTest, TakesTheNumbersOfANewMatrix) {
   const SparseMatrix first = Grid(12, 5);
   const SparseMatrix second = Grid(12, 6);
-  const Factor first_factor(first);
-  const Factor second_factor(second);
   SupernodalSolve<TypeParam> solve;
-  solve.Analyze(first_factor.lower(), first_factor.ldlt.permutationP());
-  solve.Update(first_factor.lower(), first_factor.ldlt.vectorD());
+  solve.Analyze(first);
+  ASSERT_TRUE(solve.Factorize(first));
   EXPECT_GT(this->Error(second, &solve), 1e-3);  // Not yet.
-  solve.Update(second_factor.lower(), second_factor.ldlt.vectorD());
+  ASSERT_TRUE(solve.Factorize(second));
   EXPECT_LE(this->Error(second, &solve), this->Bound(second));
+}
+
+// Quasi-definite: the diagonal of D has both signs, in any order (Vanderbei).
+TYPED_TEST(SupernodalSolveTest, FactorizesQuasiDefiniteMatrices) {
+  SparseMatrix matrix = Grid(12, 5);
+  for (Eigen::Index i = 0; i < matrix.rows(); i += 3) {
+    matrix.coeffRef(i, i) = -matrix.coeff(i, i);
+  }
+  for (const size_t large : {size_t{0}, size_t{1} << 30}) {
+    SupernodalSolve<TypeParam> solve;
+    solve.Analyze(matrix, large);
+    ASSERT_TRUE(solve.Factorize(matrix));
+    EXPECT_LE(this->Error(matrix, &solve), this->Bound(matrix));
+  }
+}
+
+TYPED_TEST(SupernodalSolveTest, RefusesPivotsThatVanishOrAreNotFinite) {
+  const SparseMatrix good = Grid(5, 5);
+  SupernodalSolve<TypeParam> solve;
+  solve.Analyze(good);
+  for (const double factor : {0.0, std::numeric_limits<double>::infinity(),
+                              std::numeric_limits<double>::quiet_NaN()}) {
+    SparseMatrix bad = good;
+    for (Eigen::Index k = 0; k < bad.nonZeros(); ++k) {
+      bad.valuePtr()[k] *= factor;
+    }
+    EXPECT_FALSE(solve.Factorize(bad)) << factor;
+  }
+  ASSERT_TRUE(solve.Factorize(good));
+  EXPECT_LE(this->Error(good, &solve), this->Bound(good));
+}
+
+// A dense matrix is one panel after the other, each the widest there is.
+TYPED_TEST(SupernodalSolveTest, FactorizesWidePanels) {
+  constexpr int kSize = 250;
+  RandomSource random(3);
+  MatrixXd dense(kSize, kSize);
+  for (int i = 0; i < kSize; ++i) {
+    for (int j = 0; j <= i; ++j) {
+      dense(i, j) = dense(j, i) = random.Uniform(-1.0, 1.0) / kSize;
+    }
+    dense(i, i) += 10.0;
+  }
+  const SparseMatrix matrix = dense.sparseView();
+  SupernodalSolve<TypeParam> solve;
+  solve.Analyze(matrix);
+  ASSERT_TRUE(solve.Factorize(matrix));
+  EXPECT_LE(this->Error(matrix, &solve), this->Bound(matrix));
 }
 
 // Merged columns store zeros; that must stay a small part.
 TYPED_TEST(SupernodalSolveTest, StoresFewZeros) {
   const SparseMatrix matrix = Grid(30, 5);
-  const Factor factor(matrix);
   SupernodalSolve<TypeParam> solve;
-  solve.Analyze(factor.lower(), factor.ldlt.permutationP());
-  const auto entries =
-      static_cast<double>(factor.lower().nonZeros() + matrix.rows());
+  solve.Analyze(matrix);
+  // The same order of elimination.
+  const Eigen::SimplicialLDLT<SparseMatrix> ldlt(matrix);
+  const auto entries = static_cast<double>(
+      ldlt.matrixL().nestedExpression().nonZeros() + matrix.rows());
   EXPECT_GE(static_cast<double>(solve.panel_size()), entries);
   // 40 % zeros in narrow panels, as much again for the upper triangle of
   // their square blocks, and up to a unit of padding in each column.
@@ -113,10 +151,9 @@ TYPED_TEST(SupernodalSolveTest, StoresFewZeros) {
 
 TYPED_TEST(SupernodalSolveTest, SolvesForAnySizeOfTheRightSide) {
   const SparseMatrix matrix = Grid(5, 5);
-  const Factor factor(matrix);
   SupernodalSolve<TypeParam> solve;
-  solve.Analyze(factor.lower(), factor.ldlt.permutationP());
-  solve.Update(factor.lower(), factor.ldlt.vectorD());
+  solve.Analyze(matrix);
+  ASSERT_TRUE(solve.Factorize(matrix));
   const VectorXd ones = VectorXd::Ones(matrix.rows());
   VectorXd reference;
   solve.Solve(ones, &reference);
@@ -132,21 +169,18 @@ TYPED_TEST(SupernodalSolveTest, SolvesForAnySizeOfTheRightSide) {
 TYPED_TEST(SupernodalSolveTest, SolvesInParts) {
   for (const int size : {2, 5, 12, 30}) {
     const SparseMatrix matrix = Grid(size, 5);
-    const Factor factor(matrix);
     SupernodalSolve<TypeParam> solve;
-    solve.Analyze(factor.lower(), factor.ldlt.permutationP(),
-                  /*large_factor=*/0);
+    solve.Analyze(matrix, /*large_factor=*/0);
     EXPECT_GT(solve.num_parts(), 0U);
-    solve.Update(factor.lower(), factor.ldlt.vectorD());
+    ASSERT_TRUE(solve.Factorize(matrix));
     EXPECT_LE(this->Error(matrix, &solve), this->Bound(matrix)) << size;
   }
 }
 
 TYPED_TEST(SupernodalSolveTest, SmallFactorsAreNotDividedUp) {
   const SparseMatrix matrix = Grid(30, 5);
-  const Factor factor(matrix);
   SupernodalSolve<TypeParam> solve;
-  solve.Analyze(factor.lower(), factor.ldlt.permutationP());
+  solve.Analyze(matrix);
   EXPECT_EQ(solve.num_parts(), 0U);
 }
 
@@ -155,19 +189,17 @@ TYPED_TEST(SupernodalSolveTest, SolvesUnconnectedUnknownsInParts) {
   SparseMatrix matrix(50, 50);
   matrix.setIdentity();
   matrix *= 10.0;
-  const Factor factor(matrix);
   SupernodalSolve<TypeParam> solve;
-  solve.Analyze(factor.lower(), factor.ldlt.permutationP(), 0);
-  solve.Update(factor.lower(), factor.ldlt.vectorD());
+  solve.Analyze(matrix, /*large_factor=*/0);
+  ASSERT_TRUE(solve.Factorize(matrix));
   EXPECT_LE(this->Error(matrix, &solve), this->Bound(matrix));
 }
 
 TYPED_TEST(SupernodalSolveTest, BitsDoNotDependOnTheNumberOfThreads) {
   const SparseMatrix matrix = Grid(40, 5);
-  const Factor factor(matrix);
   SupernodalSolve<TypeParam> solve;
-  solve.Analyze(factor.lower(), factor.ldlt.permutationP(), 0);
-  solve.Update(factor.lower(), factor.ldlt.vectorD());
+  solve.Analyze(matrix, /*large_factor=*/0);
+  ASSERT_TRUE(solve.Factorize(matrix));
   const VectorXd b = VectorXd::LinSpaced(matrix.rows(), -1.0, 2.0);
   VectorXd alone;
   solve.Solve(b, &alone);

@@ -71,7 +71,8 @@ TEST(SymmetricFactorTest, DenseSolvesToDoublePrecision) {
 
 TEST(SymmetricFactorTest, SparseSolvesWellEnoughForACorrection) {
   const Sample sample = MakeSample(100, 0, 2);
-  for (const Method method : {Method::kSimplicial, Method::kSupernodal}) {
+  for (const Method method :
+       {Method::kPanels, Method::kSimplicial, Method::kSupernodal}) {
     SymmetricFactor factor(sample.matrix, true, method);
     ASSERT_TRUE(factor.Factorize(sample.matrix));
     EXPECT_LE(SolutionError(sample, &factor), kSinglePrecision);

@@ -1,13 +1,16 @@
 #include "emmy/numerics/supernodal_solve.h"
 
+#include <Eigen/OrderingMethods>
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <limits>
 #include <queue>
 #include <utility>
 
 #include "emmy/numerics/panel_product.h"
+#include "emmy/numerics/panel_update.h"
 
 namespace emmy {
 namespace {
@@ -29,6 +32,17 @@ int Padded(int rows) {
   return (rows + kUnit - 1) / kUnit * kUnit;
 }
 
+// The lower triangle in the order of elimination.
+Eigen::SparseMatrix<double> Permuted(
+    const Eigen::SparseMatrix<double>& a,
+    const Eigen::PermutationMatrix<Eigen::Dynamic, Eigen::Dynamic, int>&
+        order) {
+  Eigen::SparseMatrix<double> permuted(a.rows(), a.cols());
+  permuted.selfadjointView<Eigen::Lower>() =
+      a.selfadjointView<Eigen::Lower>().twistedBy(order);
+  return permuted;
+}
+
 // Parts of a large factor; more than processors, so that any number of threads
 // has about as much to do.
 constexpr size_t kParts = 8;
@@ -38,27 +52,25 @@ constexpr size_t kParts = 8;
 // Groups columns while the first row below one is the next column: then all
 // rows of the former are rows of the latter, and merging only adds zeros.
 template <typename Scalar>
-void SupernodalSolve<Scalar>::FindSupernodes(const SparseMatrix& lower) {
-  const int* outer = lower.outerIndexPtr();
-  const int* inner = lower.innerIndexPtr();
-  const auto count = [outer](int column) {
-    return outer[column + 1] - outer[column];
-  };
+void SupernodalSolve<Scalar>::FindSupernodes(const FactorPattern& lower) {
   constexpr int kWidest = 96;  // Panels beyond this leave the cache.
   supernodes_.clear();
+  rows_.clear();
   double zeros = 0.0;  // Of the last supernode.
-  for (int column = 0; column < lower.cols(); ++column) {
+  for (int column = 0; column < lower.columns(); ++column) {
+    const auto count = static_cast<double>(lower.count(column));
     if (column > 0) {
       Supernode& node = supernodes_.back();
       const int before = column - 1;
+      const auto count_before = static_cast<double>(lower.count(before));
       const bool connected =
-          count(before) > 0 && inner[outer[before]] == column;
+          count_before > 0.0 && *lower.begin(before) == column;
       if (connected && node.columns < kWidest) {
         // Rows of this column which the one before it lacks.
-        const double added = count(column) + 1 - count(before);
+        const double added = count + 1.0 - count_before;
         const double new_zeros = zeros + added * node.columns;
         const double size =
-            (node.columns + 1.0) * (0.5 * node.columns + 1.0 + count(column));
+            (node.columns + 1.0) * (0.5 * node.columns + 1.0 + count);
         if (added == 0.0 || PaysToMerge(node.columns + 1, new_zeros, size)) {
           ++node.columns;
           zeros = new_zeros;
@@ -71,19 +83,21 @@ void SupernodalSolve<Scalar>::FindSupernodes(const SparseMatrix& lower) {
     node.columns = 1;
     zeros = 0.0;
   }
+  for (Supernode& node : supernodes_) {
+    const int last = node.first + node.columns - 1;
+    node.rows = static_cast<int>(lower.count(last));
+    node.height = Padded<Scalar>(node.columns + node.rows);
+    node.first_row = rows_.size();
+    rows_.insert(rows_.end(), lower.begin(last), lower.begin(last) + node.rows);
+  }
 }
 
 // Deals out the branches of a large factor's tree, which reorders supernodes.
 // The top is what is left where every branch is small enough for the parts to
 // come out alike.
 template <typename Scalar>
-void SupernodalSolve<Scalar>::DealOutParts(const SparseMatrix& lower) {
+void SupernodalSolve<Scalar>::DealOutParts() {
   const size_t count = supernodes_.size();
-  std::vector<size_t> node_of(static_cast<size_t>(lower.cols()));
-  for (size_t n = 0; n < count; ++n) {
-    const Supernode& node = supernodes_[n];
-    std::fill_n(node_of.begin() + node.first, node.columns, n);
-  }
   // Parents have higher numbers than their children.
   const size_t no_parent = count;
   std::vector<size_t> parent(count, no_parent);
@@ -92,10 +106,7 @@ void SupernodalSolve<Scalar>::DealOutParts(const SparseMatrix& lower) {
   for (size_t n = 0; n < count; ++n) {
     const Supernode& node = supernodes_[n];
     if (node.rows > 0) {
-      const int* const rows = lower.innerIndexPtr() +
-                              lower.outerIndexPtr()[node.first + node.columns] -
-                              node.rows;
-      parent[n] = node_of[static_cast<size_t>(rows[0])];
+      parent[n] = supernode_of_[static_cast<size_t>(*Rows(node))];
     }
     weight[n] += PanelSize(node);
     if (parent[n] != no_parent) weight[parent[n]] += weight[n];
@@ -142,8 +153,8 @@ void SupernodalSolve<Scalar>::DealOutParts(const SparseMatrix& lower) {
 }
 
 template <typename Scalar>
-void SupernodalSolve<Scalar>::PlaceUnknowns(const Permutation& order) {
-  const auto size = static_cast<size_t>(order.size());
+void SupernodalSolve<Scalar>::PlaceUnknowns() {
+  const auto size = static_cast<size_t>(order_.size());
   place_.assign(size, 0);
   int place = 0;
   for (Supernode& node : supernodes_) {
@@ -154,7 +165,7 @@ void SupernodalSolve<Scalar>::PlaceUnknowns(const Permutation& order) {
   }
   unknown_.assign(size, 0);
   for (size_t i = 0; i < size; ++i) {
-    const int column = order.indices()(static_cast<Eigen::Index>(i));
+    const int column = order_.indices()(static_cast<Eigen::Index>(i));
     unknown_[static_cast<size_t>(place_[static_cast<size_t>(column)])] =
         static_cast<int>(i);
   }
@@ -171,18 +182,16 @@ void SupernodalSolve<Scalar>::PlaceUnknowns(const Permutation& order) {
 }
 
 template <typename Scalar>
-void SupernodalSolve<Scalar>::PlacePanels(const SparseMatrix& lower) {
+void SupernodalSolve<Scalar>::PlacePanels() {
   runs_.clear();
   size_t panel_size = 0;
   for (Supernode& node : supernodes_) {
     node.panel_start = panel_size;
     panel_size += PanelSize(node);
     node.first_run = runs_.size();
-    const int end = lower.outerIndexPtr()[node.first + node.columns];
-    for (int k = end - node.rows; k < end; ++k) {
-      const int row = lower.innerIndexPtr()[k];
-      const int place = place_[static_cast<size_t>(row)];
-      if (k > end - node.rows && place != top_.first_unknown &&
+    for (int k = 0; k < node.rows; ++k) {
+      const int place = place_[static_cast<size_t>(Rows(node)[k])];
+      if (k > 0 && place != top_.first_unknown &&
           place == runs_.back().first + runs_.back().count) {
         ++runs_.back().count;
       } else {
@@ -192,32 +201,46 @@ void SupernodalSolve<Scalar>::PlacePanels(const SparseMatrix& lower) {
     node.end_run = runs_.size();
   }
   panels_.assign(panel_size, Scalar(0));
+  // PanelUpdate reads beyond the rows.
+  factor_.assign(panel_size + kPanelUpdateUnit, 0.0);
 }
 
 template <typename Scalar>
-void SupernodalSolve<Scalar>::Analyze(const SparseMatrix& lower,
-                                      const Permutation& order,
+void SupernodalSolve<Scalar>::Analyze(const SparseMatrix& a,
                                       size_t large_factor) {
-  FindSupernodes(lower);
+  const SparseMatrix full = a.template selfadjointView<Eigen::Lower>();
+  Permutation unknown_of_row;
+  Eigen::AMDOrdering<int>()(full, unknown_of_row);
+  order_ = unknown_of_row.inverse();
+  FindSupernodes(FindFactorPattern(Permuted(a, order_)));
+
   size_t panel_size = 0;
   int most = 0;
-  for (Supernode& node : supernodes_) {
-    const int last = node.first + node.columns - 1;
-    node.rows = lower.outerIndexPtr()[last + 1] - lower.outerIndexPtr()[last];
-    node.height = Padded<Scalar>(node.columns + node.rows);
+  for (const Supernode& node : supernodes_) {
     panel_size += PanelSize(node);
     most = std::max(most, node.height);
   }
+  const auto number_supernodes = [this, &a] {
+    supernode_of_.resize(static_cast<size_t>(a.cols()));
+    for (size_t n = 0; n < supernodes_.size(); ++n) {
+      std::fill_n(supernode_of_.begin() + supernodes_[n].first,
+                  supernodes_[n].columns, n);
+    }
+  };
+  number_supernodes();
   fetches_ahead_ = panel_size * sizeof(Scalar) > large_factor;
   parts_.clear();
   top_.first = 0;
   top_.end = supernodes_.size();
-  if (fetches_ahead_) DealOutParts(lower);
-  PlaceUnknowns(order);
-  PlacePanels(lower);
-  row_in_panel_.assign(static_cast<size_t>(lower.cols()), 0);
-  inverse_diagonal_.resize(lower.cols());
-  work_.resize(lower.cols());
+  if (fetches_ahead_) {
+    DealOutParts();
+    number_supernodes();
+  }
+  PlaceUnknowns();
+  PlacePanels();
+  row_in_panel_.assign(static_cast<size_t>(a.cols()), 0);
+  inverse_diagonal_.resize(a.cols());
+  work_.resize(a.cols());
   for (Part& part : parts_) {
     part.top.setZero(top_.end_unknown - top_.first_unknown);
     part.gathered.setZero(most);
@@ -225,47 +248,161 @@ void SupernodalSolve<Scalar>::Analyze(const SparseMatrix& lower,
   top_.gathered.setZero(most);
 }
 
+// The columns of the matrix, and where each row is in the panel.
 template <typename Scalar>
-void SupernodalSolve<Scalar>::UpdatePanel(const SparseMatrix& lower,
-                                          const Supernode& node) {
-  const int* const rows = lower.innerIndexPtr() +
-                          lower.outerIndexPtr()[node.first + node.columns] -
-                          node.rows;
+void SupernodalSolve<Scalar>::FormPanel(const SparseMatrix& permuted,
+                                        const Supernode& node) {
   for (int c = 0; c < node.columns; ++c) {
     row_in_panel_[static_cast<size_t>(node.first + c)] = c;
   }
   for (int r = 0; r < node.rows; ++r) {
-    row_in_panel_[static_cast<size_t>(rows[r])] = node.columns + r;
+    row_in_panel_[static_cast<size_t>(Rows(node)[r])] = node.columns + r;
   }
-  full_panel_.setZero(node.height, node.columns);
-  for (int c = 0; c < node.columns; ++c) {
-    full_panel_(c, c) = 1.0;
-    for (SparseMatrix::InnerIterator it(lower, node.first + c); it; ++it) {
-      full_panel_(row_in_panel_[static_cast<size_t>(it.row())], c) = it.value();
+  double* column = FactorPanel(node);
+  std::fill_n(column, PanelSize(node), 0.0);
+  for (int c = 0; c < node.columns; ++c, column += node.height) {
+    for (SparseMatrix::InnerIterator it(permuted, node.first + c); it; ++it) {
+      column[row_in_panel_[static_cast<size_t>(it.row())]] = it.value();
     }
   }
-  const MatrixXd inverse =
-      full_panel_.topRows(node.columns)
-          .template triangularView<Eigen::UnitLower>()
-          .solve(MatrixXd::Identity(node.columns, node.columns));
+}
+
+// L₂ D L₂ᵀ of an earlier panel.
+template <typename Scalar>
+void SupernodalSolve<Scalar>::Subtract(const Supernode& from,
+                                       const Supernode& node) {
+  const int* const rows = Rows(from) + from.first_common;
+  const int num_rows = from.rows - from.first_common;
+  const int end = node.first + node.columns;
+  int num_columns = 0;
+  while (num_columns < num_rows && rows[num_columns] < end) ++num_columns;
+
+  const double* const panel = FactorPanel(from);
+  const double* const common = panel + from.columns + from.first_common;
+  scaled_.resize(static_cast<size_t>(from.columns * num_columns));
+  double* scaled = scaled_.data();
+  for (int k = 0; k < from.columns; ++k) {
+    const std::ptrdiff_t column = std::ptrdiff_t{k} * from.height;
+    const double pivot = panel[column + k];
+    for (int j = 0; j < num_columns; ++j) {
+      *scaled++ = pivot * common[column + j];
+    }
+  }
+  constexpr int kUnit = kPanelUpdateUnit;
+  const std::ptrdiff_t stride = (num_rows + kUnit - 1) / kUnit * kUnit;
+  product_.resize(static_cast<size_t>(stride * num_columns));
+  PanelUpdate(common, from.height, num_rows, from.columns, scaled_.data(),
+              num_columns, product_.data(), stride);
+  for (int j = 0; j < num_columns; ++j) {
+    double* const column =
+        FactorPanel(node) + std::ptrdiff_t{rows[j] - node.first} * node.height;
+    const double* const product = product_.data() + j * stride;
+    for (int i = j; i < num_rows; ++i) {
+      column[row_in_panel_[static_cast<size_t>(rows[i])]] -= product[i];
+    }
+  }
+}
+
+// L of one panel, and D on its diagonal.
+template <typename Scalar>
+bool SupernodalSolve<Scalar>::FactorizePanel(const Supernode& node) {
+  constexpr int kBlock = 8;  // Columns that take the others' part at once.
+  constexpr int kUnit = kPanelUpdateUnit;
+  double* const panel = FactorPanel(node);
+  const std::ptrdiff_t height = node.height;
+  for (int first = 0; first < node.columns; first += kBlock) {
+    const int count = std::min(kBlock, node.columns - first);
+    const int num_rows = node.height - first;
+    if (first > 0) {
+      scaled_.resize(static_cast<size_t>(first * count));
+      double* scaled = scaled_.data();
+      for (int k = 0; k < first; ++k) {
+        const double* const column = panel + k * height;
+        for (int j = 0; j < count; ++j) {
+          *scaled++ = column[k] * column[first + j];
+        }
+      }
+      const std::ptrdiff_t stride = (num_rows + kUnit - 1) / kUnit * kUnit;
+      product_.resize(static_cast<size_t>(stride * count));
+      PanelUpdate(panel + first, height, num_rows, first, scaled_.data(), count,
+                  product_.data(), stride);
+      for (int j = 0; j < count; ++j) {
+        double* const column = panel + (first + j) * height + first;
+        const double* const product = product_.data() + j * stride;
+        for (int i = j; i < num_rows; ++i) column[i] -= product[i];
+      }
+    }
+    for (int c = first; c < first + count; ++c) {
+      double* const column = panel + c * height;
+      for (int k = first; k < c; ++k) {
+        const double* const before = panel + k * height;
+        const double factor = before[k] * before[c];
+        for (int i = c; i < node.height; ++i) column[i] -= factor * before[i];
+      }
+      const double pivot = column[c];
+      if (pivot == 0.0 || !std::isfinite(pivot)) return false;
+      const double inverse = 1.0 / pivot;
+      for (int i = c + 1; i < node.height; ++i) column[i] *= inverse;
+    }
+  }
+  return true;
+}
+
+template <typename Scalar>
+void SupernodalSolve<Scalar>::InvertPanel(const Supernode& node) {
+  using Panel = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic>;
+  const Eigen::Map<const Panel> factor(FactorPanel(node), node.height,
+                                       node.columns);
+  inverse_diagonal_.segment(node.place, node.columns) =
+      factor.diagonal().cwiseInverse().template cast<Scalar>();
+  const Panel inverse = factor.topRows(node.columns)
+                            .template triangularView<Eigen::UnitLower>()
+                            .solve(Panel::Identity(node.columns, node.columns));
   Eigen::Map<Eigen::Matrix<Scalar, Eigen::Dynamic, Eigen::Dynamic>> panel(
       panels_.data() + node.panel_start, node.height, node.columns);
   panel.topRows(node.columns) = inverse.template cast<Scalar>();
   panel.middleRows(node.columns, node.rows) =
-      (full_panel_.middleRows(node.columns, node.rows) * inverse)
+      (factor.middleRows(node.columns, node.rows) * inverse)
           .template cast<Scalar>();
 }
 
+// For the panel that has the first of the rows which are left.
 template <typename Scalar>
-void SupernodalSolve<Scalar>::Update(const SparseMatrix& lower,
-                                     const VectorXd& diagonal) {
-  for (const Supernode& node : supernodes_) {
-    inverse_diagonal_.segment(node.place, node.columns) =
-        diagonal.segment(node.first, node.columns)
-            .cwiseInverse()
-            .template cast<Scalar>();
-    UpdatePanel(lower, node);
+void SupernodalSolve<Scalar>::Wait(size_t supernode) {
+  Supernode& node = supernodes_[supernode];
+  if (node.first_common == node.rows) return;
+  const size_t panel =
+      supernode_of_[static_cast<size_t>(Rows(node)[node.first_common])];
+  node.next_waiting = first_waiting_[panel];
+  first_waiting_[panel] = supernode;
+}
+
+template <typename Scalar>
+bool SupernodalSolve<Scalar>::Factorize(const SparseMatrix& a) {
+  const SparseMatrix permuted = Permuted(a, order_);
+  const size_t count = supernodes_.size();
+  first_waiting_.assign(count, count);
+  for (size_t n = 0; n < count; ++n) {
+    Supernode& node = supernodes_[n];
+    FormPanel(permuted, node);
+    for (size_t from = first_waiting_[n]; from < count;) {
+      Supernode& earlier = supernodes_[from];
+      const size_t next = earlier.next_waiting;
+      Subtract(earlier, node);
+      const int end = node.first + node.columns;
+      while (earlier.first_common < earlier.rows &&
+             Rows(earlier)[earlier.first_common] < end) {
+        ++earlier.first_common;
+      }
+      Wait(from);
+      from = next;
+    }
+    if (!FactorizePanel(node)) return false;
+    InvertPanel(node);
+    node.first_common = 0;
+    Wait(n);
   }
+  return true;
 }
 
 // y = L⁻¹ b, then D⁻¹ y, of one part's unknowns.

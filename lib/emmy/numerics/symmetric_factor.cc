@@ -47,27 +47,33 @@ struct SymmetricFactor::Dense final : SymmetricFactor::Backend {
 };
 
 template <typename Scalar>
+struct SymmetricFactor::Panels final : SymmetricFactor::Backend {
+  explicit Panels(const SymmetricBlockMatrix& matrix) {
+    panels.Analyze(matrix.lower());
+  }
+  bool Factorize(const SymmetricBlockMatrix& matrix) override {
+    return panels.Factorize(matrix.lower());
+  }
+  void Solve(const VectorXd& b, VectorXd* x, WorkTeam* team) override {
+    panels.Solve(b, x, team);
+  }
+
+  SupernodalSolve<Scalar> panels;
+};
+
 struct SymmetricFactor::Simplicial final : SymmetricFactor::Backend {
   explicit Simplicial(const SymmetricBlockMatrix& matrix) {
     ldlt.analyzePattern(matrix.lower());
   }
   bool Factorize(const SymmetricBlockMatrix& matrix) override {
     ldlt.factorize(matrix.lower());
-    if (ldlt.info() != Eigen::Success) return false;
-    const Eigen::SparseMatrix<double>& lower =
-        ldlt.matrixL().nestedExpression();
-    if (!analyzed) panels.Analyze(lower, ldlt.permutationP());
-    analyzed = true;
-    panels.Update(lower, ldlt.vectorD());
-    return true;
+    return ldlt.info() == Eigen::Success;
   }
-  void Solve(const VectorXd& b, VectorXd* x, WorkTeam* team) override {
-    panels.Solve(b, x, team);
+  void Solve(const VectorXd& b, VectorXd* x, WorkTeam* /*team*/) override {
+    *x = ldlt.solve(b);
   }
 
   Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>, Eigen::Lower> ldlt;
-  SupernodalSolve<Scalar> panels;
-  bool analyzed = false;
 };
 
 struct SymmetricFactor::Supernodal final : SymmetricFactor::Backend {
@@ -92,7 +98,7 @@ SymmetricFactor::SymmetricFactor(const SymmetricBlockMatrix& matrix,
     : method_(method) {
   if (method_ == Method::kAutomatic) {
     method_ = 3 * matrix.num_blocks() <= kDenseLimit ? Method::kDense
-                                                     : Method::kSimplicial;
+                                                     : Method::kPanels;
   }
   switch (method_) {
     case Method::kDense:
@@ -101,13 +107,16 @@ SymmetricFactor::SymmetricFactor(const SymmetricBlockMatrix& matrix,
     case Method::kSupernodal:
       backend_ = std::make_unique<Supernodal>(matrix);
       break;
-    case Method::kAutomatic:
     case Method::kSimplicial:
+      backend_ = std::make_unique<Simplicial>(matrix);
+      break;
+    case Method::kAutomatic:
+    case Method::kPanels:
       // A quasi-definite factor may grow by 1/κ: that needs every digit.
       if (positive_definite) {
-        backend_ = std::make_unique<Simplicial<float>>(matrix);
+        backend_ = std::make_unique<Panels<float>>(matrix);
       } else {
-        backend_ = std::make_unique<Simplicial<double>>(matrix);
+        backend_ = std::make_unique<Panels<double>>(matrix);
       }
       break;
   }

@@ -23,9 +23,10 @@ namespace emmy {
 class SymmetricFactor {
  public:
   enum class Method {
-    kAutomatic,  // Dense up to kDenseLimit unknowns, else sparse.
+    kAutomatic,  // kDense up to kDenseLimit unknowns, else kPanels.
     kDense,
-    kSimplicial,  // Eigen's LDLᵀ, solved by panels (supernodal_solve.h).
+    kPanels,      // Our own LDLᵀ (supernodal_solve.h).
+    kSimplicial,  // Eigen's LDLᵀ.
     kSupernodal,  // CHOLMOD's LLᵀ; positive definite only.
   };
   static constexpr int kDenseLimit = 48;
@@ -50,6 +51,7 @@ class SymmetricFactor {
   struct Backend;
   struct Dense;
   template <typename Scalar>
+  struct Panels;
   struct Simplicial;
   struct Supernodal;
 
