@@ -193,6 +193,33 @@ TEST(JointStepIterationsTest, WhatStrainsLeaveIsOfSecondOrder) {
   EXPECT_LE(MeanIterations(model, 1e-8), 2.1);
 }
 
+// A kept matrix is made anew when the iterations it has cost beyond those of a
+// new one are as much work as that: 16, and not before.
+TEST(JointStepRenewalTest, AKeptMatrixIsRenewedWhenItsAgeHasCostAsMuch) {
+  TestRun run(verification::BoxGrid(6).model, 1e-3);
+  int fresh = 0;
+  int excess = 0;
+  int renewals = 0;
+  int factorizations = 0;
+  for (int i = 0; i < 300; ++i) {
+    const StepReport report = run.Step();
+    ASSERT_TRUE(report.ok()) << report.message;
+    if (run.num_factorizations() != factorizations) {
+      if (factorizations > 0) {
+        ++renewals;
+        EXPECT_GE(excess, 16) << i;
+      }
+      factorizations = run.num_factorizations();
+      fresh = report.iterations;
+      excess = 0;
+    } else {
+      EXPECT_LT(excess, 16) << i;
+      excess += std::max(0, report.iterations - fresh);
+    }
+  }
+  EXPECT_GE(renewals, 5);
+}
+
 // That the check of the laws can fail.
 TEST(JointStepAccuracyTest, ALooseIterationDoesNotKeepTheEnergy) {
   TestRun run(Chain(30),

@@ -34,6 +34,7 @@ class TestRun {
   const State& state() const { return built_->state; }
 
   StepReport Step() { return integrator_.Step(built_->state); }
+  int num_factorizations() const { return integrator_.num_factorizations(); }
 
   // False, and a test failure with the message, if a step fails.
   bool Advance(int64_t num_steps) {

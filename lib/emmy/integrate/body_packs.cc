@@ -8,17 +8,17 @@
 
 namespace emmy {
 
-PackArray AllocatePacks(size_t packs, int blocks) {
-  const size_t size =
-      std::max<size_t>(packs, 1) * static_cast<size_t>(blocks) * kLanes;
-  PackArray array = hwy::AllocateAligned<double>(size);
-  std::fill_n(array.get(), size, 0.0);
-  return array;
-}
-
 Matrix3d PackMatrix(const double* pack, int block, size_t lane) {
   Matrix3d m;
   for (int c = 0; c < 3; ++c) m.col(c) = PackVector(pack, block + 3 * c, lane);
+  return m;
+}
+
+Matrix3d PackMatrix(const float* pack, int block, size_t lane) {
+  Matrix3d m;
+  for (int k = 0; k < 9; ++k) {
+    m(k) = static_cast<double>(PackEntry(pack, block + k, lane));
+  }
   return m;
 }
 
@@ -43,7 +43,8 @@ BodyPacks::BodyPacks(const Structure& structure, double time_step, size_t packs,
       places_(packs * kLanes),
       start_(AllocatePacks(packs, BodyStartBlock::kSize)),
       iterate_(AllocatePacks(packs, BodyIterateBlock::kSize)),
-      scratch_(AllocatePacks(packs, BodyScratchBlock::kSize)) {
+      scratch_(AllocatePacks(packs, BodyScratchBlock::kSize)),
+      frames_(AllocatePacks<float>(packs, BodyFrameBlock::kSize)) {
   for (size_t b = 0; b < slots_.size(); ++b) {
     const ModelBody& body = *structure.bodies[b].body;
     places_[slots_[b]] = {body.position_offset, body.velocity_offset,
@@ -69,10 +70,6 @@ BodyPacks::BodyPacks(const Structure& structure, double time_step, size_t packs,
 
 void BodyPacks::NeedLoads() {
   if (!loads_) loads_ = AllocatePacks(packs_, kNumLoads);
-}
-
-void BodyPacks::ClearLoads() {
-  std::fill_n(loads_.get(), packs_ * kNumLoads * kLanes, 0.0);
 }
 
 void BodyPacks::Load(const State& state, size_t first, size_t last) {
@@ -139,8 +136,8 @@ Matrix3d BodyPacks::Duals(size_t slot, const Matrix3d& increment) {
   return mean.inverse().transpose();
 }
 
-void BodyPacks::SetLoads() {
-  if (constant_loads_.cols() == 0) return;
+bool BodyPacks::SetLoads() {
+  if (constant_loads_.cols() == 0) return false;
   for (size_t b = 0; b < slots_.size(); ++b) {
     double* const here = loads(slots_[b] / kLanes);
     for (int a = 0; a < 4; ++a) {
@@ -160,6 +157,7 @@ void BodyPacks::SetLoads() {
           3 + 3 * i, slot % kLanes);
     }
   }
+  return true;
 }
 
 void BodyPacks::AddLoadWork(State& state) {

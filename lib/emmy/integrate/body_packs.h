@@ -7,6 +7,7 @@
 #ifndef EMMY_INTEGRATE_BODY_PACKS_H_
 #define EMMY_INTEGRATE_BODY_PACKS_H_
 
+#include <algorithm>
 #include <cstddef>
 #include <vector>
 
@@ -21,16 +22,23 @@ namespace emmy {
 
 inline constexpr size_t kLanes = kPackLanes;
 
-using PackArray = hwy::AlignedFreeUniquePtr<double[]>;
+template <typename Number>
+using PackArrayOf = hwy::AlignedFreeUniquePtr<Number[]>;
+using PackArray = PackArrayOf<double>;
 
 // Zeros.
-PackArray AllocatePacks(size_t packs, int blocks);
+template <typename Number = double>
+PackArrayOf<Number> AllocatePacks(size_t packs, int blocks) {
+  const size_t size =
+      std::max<size_t>(packs, 1) * static_cast<size_t>(blocks) * kLanes;
+  PackArrayOf<Number> array = hwy::AllocateAligned<Number>(size);
+  std::fill_n(array.get(), size, Number(0));
+  return array;
+}
 
 // Entries, vectors and matrices of one lane of a pack.
-inline double& PackEntry(double* pack, int block, size_t lane) {
-  return pack[static_cast<size_t>(block) * kLanes + lane];
-}
-inline double PackEntry(const double* pack, int block, size_t lane) {
+template <typename Number>
+Number& PackEntry(Number* pack, int block, size_t lane) {
   return pack[static_cast<size_t>(block) * kLanes + lane];
 }
 inline Vector3d PackVector(const double* pack, int block, size_t lane) {
@@ -42,6 +50,7 @@ inline void SetPackVector(const Vector3d& v, double* pack, int block,
   for (int i = 0; i < 3; ++i) PackEntry(pack, block + i, lane) = v(i);
 }
 Matrix3d PackMatrix(const double* pack, int block, size_t lane);
+Matrix3d PackMatrix(const float* pack, int block, size_t lane);
 void SetPackMatrix(const Matrix3d& m, double* pack, int block, size_t lane);
 void SetPackSymmetric(const Matrix3d& m, double* pack, int block, size_t lane);
 
@@ -62,6 +71,9 @@ class BodyPacks {
   double* scratch(size_t pack) {
     return Of(scratch_, pack, BodyScratchBlock::kSize);
   }
+  float* frames(size_t pack) {
+    return Of(frames_, pack, BodyFrameBlock::kSize);
+  }
   // Null if there is no load.
   double* loads(size_t pack) {
     return loads_ ? Of(loads_, pack, kNumLoads) : nullptr;
@@ -70,14 +82,13 @@ class BodyPacks {
 
   // Makes room for impulses besides those of the structure's loads; zero.
   void NeedLoads();
-  void ClearLoads();
 
   // The start and the start value of Δw of the packs [first, last).
   void Load(const State& state, size_t first, size_t last);
 
-  // Δt F of all loads at the iterate in place of what is in loads(); nothing
-  // if there are none.
-  void SetLoads();
+  // Δt F of all loads at the iterate in place of what is in loads(); false, and
+  // nothing done, if there are none.
+  bool SetLoads();
 
   // After ChainFinish: advances the packs [first, last) and predicts their
   // accelerations by order `order`.
@@ -92,7 +103,8 @@ class BodyPacks {
     Eigen::Index velocity = 0;
     Eigen::Index strain = 0;
   };
-  static double* Of(const PackArray& array, size_t pack, int blocks) {
+  template <typename Number>
+  static Number* Of(const PackArrayOf<Number>& array, size_t pack, int blocks) {
     return array.get() + pack * static_cast<size_t>(blocks) * kLanes;
   }
   Matrix3d Increment(size_t slot);
@@ -104,6 +116,7 @@ class BodyPacks {
   std::vector<size_t> slots_;
   std::vector<Place> places_;
   PackArray start_, iterate_, scratch_, loads_;
+  PackArrayOf<float> frames_;
   Matrix3Xd constant_loads_;  // Δt F, a column a vector; none: no loads.
 };
 

@@ -13,6 +13,7 @@
 #define EMMY_INTEGRATE_COUPLED_TANGENT_H_
 
 #include <array>
+#include <cstdint>
 #include <vector>
 
 #include "emmy/base/types.h"
@@ -36,6 +37,10 @@ struct KeptTangent {
   VectorXd matrix;      // Entries of A when it was factorised; none: not kept.
   Matrix3Xd positions;  // q̄ at that point.
   Matrix3d turn = Matrix3d::Identity();  // Of the whole since then.
+  // By JointStep: iterations of the step that made it, and how many more those
+  // since then have needed.
+  int64_t fresh_iterations = 0;
+  int64_t excess_iterations = 0;
 };
 
 class CoupledTangent {

@@ -27,7 +27,7 @@ JointChain::JointChain(const Structure& structure,
       groups_((row.bodies.size() + kPerGroup - 1) / kPerGroup),
       length_((row.bodies.size() + groups_ * kLanes - 1) / (groups_ * kLanes)),
       multipliers_(groups_ * length_ * kLanes, -1),
-      factor_(AllocatePacks(groups_ * length_, JointFactorBlock::kSize)),
+      factor_(AllocatePacks<float>(groups_ * length_, JointFactorBlock::kSize)),
       pieces_(AllocatePacks(groups_, PieceBlock::kSize)),
       separators_(groups_ * kLanes),
       team_(std::min(static_cast<size_t>(num_threads), groups_)),
@@ -103,6 +103,7 @@ ChainGroup JointChain::Group(size_t group) {
   g.loads = packs_->loads(first);
   g.iterate = packs_->iterate(first);
   g.scratch = packs_->scratch(first);
+  g.frames = packs_->frames(first);
   g.factor = factor_.get() + first * JointFactorBlock::kSize * kLanes;
   g.piece = pieces_.get() + group * PieceBlock::kSize * kLanes;
   return g;
@@ -145,7 +146,7 @@ const JointSums& JointChain::Evaluate(ForwardWork work) {
     for (size_t group = 0; group < groups_ && state != nullptr; ++group) {
       LoadGroup(*state, group);
     }
-    packs_->SetLoads();
+    static_cast<void>(packs_->SetLoads());
   }
   if (!std::exchange(is_evaluated_, false)) {
     team_.Run(groups_, [&](size_t, size_t first, size_t last) {

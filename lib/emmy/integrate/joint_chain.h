@@ -73,7 +73,9 @@ class JointChain : public JointSystem {
   std::unique_ptr<BodyPacks> packs_;
   // In the state, of the right joint by slot; −1: none.
   std::vector<Eigen::Index> multipliers_;
-  PackArray constants_, factor_, pieces_;
+  PackArray constants_;
+  PackArrayOf<float> factor_;
+  PackArray pieces_;
   std::vector<const double*> constants_of_pack_;
   std::vector<Separator> separators_;
   WorkTeam team_;

@@ -43,10 +43,20 @@ HWY_INLINE V Get(const double* p, int k) {
 HWY_INLINE void Put(V x, double* p, int k) {
   hn::Store(x, Tag(), p + k * kPackLanes);
 }
-HWY_INLINE V3 Get3(const double* p, int k) {
+// Kept in single precision.
+using SingleTag = hn::Rebind<float, Tag>;
+HWY_INLINE V Get(const float* p, int k) {
+  return hn::PromoteTo(Tag(), hn::Load(SingleTag(), p + k * kPackLanes));
+}
+HWY_INLINE void Put(V x, float* p, int k) {
+  hn::Store(hn::DemoteTo(SingleTag(), x), SingleTag(), p + k * kPackLanes);
+}
+template <typename Number>
+HWY_INLINE V3 Get3(const Number* p, int k) {
   return {{Get(p, k), Get(p, k + 1), Get(p, k + 2)}};
 }
-HWY_INLINE void Put3(const V3& x, double* p, int k) {
+template <typename Number>
+HWY_INLINE void Put3(const V3& x, Number* p, int k) {
   for (int i = 0; i < 3; ++i) Put(x.v[i], p, k + i);
 }
 HWY_INLINE Symmetric GetSymmetric(const double* p, int k) {
@@ -54,10 +64,12 @@ HWY_INLINE Symmetric GetSymmetric(const double* p, int k) {
   for (int i = 0; i < 6; ++i) s.v[i] = Get(p, k + i);
   return s;
 }
-HWY_INLINE M3 GetMatrix(const double* p, int k) {
+template <typename Number>
+HWY_INLINE M3 GetMatrix(const Number* p, int k) {
   return {{Get3(p, k), Get3(p, k + 3), Get3(p, k + 6)}};
 }
-HWY_INLINE void PutMatrix(const M3& m, double* p, int k) {
+template <typename Number>
+HWY_INLINE void PutMatrix(const M3& m, Number* p, int k) {
   for (int c = 0; c < 3; ++c) Put3(m.column[c], p, k + 3 * c);
 }
 
@@ -331,17 +343,17 @@ HWY_INLINE V3 QuarterTurn(const M3& frame, const Motion& m) {
   return turn;
 }
 
-HWY_INLINE void PutDeviation(const Deviation& d, double* scratch) {
-  Put3(d.turn, scratch, BodyScratchBlock::kTurn);
+HWY_INLINE void PutDeviation(const Deviation& d, float* place) {
+  Put3(d.turn, place, BodyFrameBlock::kTurn);
   for (int k = 0; k < 6; ++k) {
-    Put(d.strain[k], scratch, BodyScratchBlock::kStrain + k);
+    Put(d.strain[k], place, BodyFrameBlock::kStrain + k);
   }
 }
-HWY_INLINE Deviation GetDeviation(const double* scratch) {
+HWY_INLINE Deviation GetDeviation(const float* place) {
   Deviation d;
-  d.turn = Get3(scratch, BodyScratchBlock::kTurn);
+  d.turn = Get3(place, BodyFrameBlock::kTurn);
   for (int k = 0; k < 6; ++k) {
-    d.strain[k] = Get(scratch, BodyScratchBlock::kStrain + k);
+    d.strain[k] = Get(place, BodyFrameBlock::kStrain + k);
   }
   return d;
 }
@@ -439,9 +451,12 @@ HWY_INLINE void Forward(const ChainGroup& g, int lane) {
     double* const scratch =
         g.scratch +
         static_cast<ptrdiff_t>(t) * BodyScratchBlock::kSize * kPackLanes + lane;
+    float* const kept_frame =
+        g.frames +
+        static_cast<ptrdiff_t>(t) * BodyFrameBlock::kSize * kPackLanes + lane;
     // Of the joint on the left.
     const ptrdiff_t before = t > 0 ? t - 1 : 0;
-    double* const factor =
+    float* const factor =
         g.factor + before * JointFactorBlock::kSize * kPackLanes + lane;
     double* const left_scratch =
         g.scratch + before * BodyScratchBlock::kSize * kPackLanes + lane;
@@ -535,12 +550,12 @@ HWY_INLINE void Forward(const ChainGroup& g, int lane) {
     for (int i = 0; i < 3; ++i) {
       frame.column[i] = Plus(m.mean[1 + i], Times(quarter, m.increment[1 + i]));
     }
-    PutMatrix(frame, scratch, BodyScratchBlock::kFrame);
+    PutMatrix(frame, kept_frame, BodyFrameBlock::kFrame);
     V3 u[4];
     u[0] = Times(Get(constants, C::kInverseMass), residual[0]);
     if constexpr (kRow) {
       deviation.turn = QuarterTurn(frame, m);
-      PutDeviation(deviation, scratch);
+      PutDeviation(deviation, kept_frame);
       M3 along;
       for (int i = 0; i < 3; ++i) {
         along.column[i] =
@@ -700,9 +715,11 @@ HWY_INLINE void Backward(const ChainGroup& g, int lane) {
         g.iterate + t * BodyIterateBlock::kSize * kPackLanes + lane;
     const double* const scratch =
         g.scratch + t * BodyScratchBlock::kSize * kPackLanes + lane;
+    const float* const kept_frame =
+        g.frames + t * BodyFrameBlock::kSize * kPackLanes + lane;
     V3 left_step = end_step;
     if (t > 0) {
-      const double* const factor =
+      const float* const factor =
           g.factor + (t - 1) * JointFactorBlock::kSize * kPackLanes + lane;
       const V3 y = Get3(scratch - BodyScratchBlock::kSize * kPackLanes,
                         BodyScratchBlock::kJoint);
@@ -713,8 +730,8 @@ HWY_INLINE void Backward(const ChainGroup& g, int lane) {
     }
     Put3(Minus(Get3(iterate, BodyIterateBlock::kImpulse), right_step), iterate,
          BodyIterateBlock::kImpulse);
-    const M3 frame = GetMatrix(scratch, BodyScratchBlock::kFrame);
-    const Deviation d = GetDeviation(scratch);
+    const M3 frame = GetMatrix(kept_frame, BodyFrameBlock::kFrame);
+    const Deviation d = GetDeviation(kept_frame);
     const V3 left_force = Deviate(d, TransposeTimes(frame, left_step));
     const V3 right_force = Deviate(d, TransposeTimes(frame, right_step));
     M3 load;
@@ -747,7 +764,9 @@ HWY_INLINE void BackwardBodies(const ChainGroup& g, int lane) {
         g.iterate + t * BodyIterateBlock::kSize * kPackLanes + lane;
     const double* const scratch =
         g.scratch + t * BodyScratchBlock::kSize * kPackLanes + lane;
-    const M3 frame = GetMatrix(scratch, BodyScratchBlock::kFrame);
+    const M3 frame =
+        GetMatrix(g.frames + t * BodyFrameBlock::kSize * kPackLanes + lane,
+                  BodyFrameBlock::kFrame);
     M3 load;
     for (int i = 0; i < 3; ++i) {
       load.column[i] = TransposeTimes(frame, Get3(loads, 3 + 3 * i));

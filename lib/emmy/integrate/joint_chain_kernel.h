@@ -77,14 +77,22 @@ struct BodyIterateBlock {
 
 // From the forward sweep to the backward one; then the solution.
 struct BodyScratchBlock {
-  static constexpr int kCorrection = 0;  // u
-  static constexpr int kFrame = 12;      // Q
-  static constexpr int kTurn = 21;       // φ, in the frame.
-  static constexpr int kJoint = 24;      // B⁻¹ y of the right joint.
-  static constexpr int kStrain = 27;     // ε̄
-  static constexpr int kSize = 33;
+  static constexpr int kCorrection = 0;         // u
+  static constexpr int kJoint = 12;             // B⁻¹ y of the right joint.
   static constexpr int kPositionIncrement = 0;  // Δq, by Finish.
   static constexpr int kStrainIncrement = 12;   // Δε, by Finish.
+  static constexpr int kSize = 18;
+};
+
+// Where the equations of a correction are taken, and the elimination, are kept
+// in single precision: a long chain is as fast as memory streams, and what
+// rounding leaves of a correction, 6e-8 of it, is less than what (EM-17) does.
+// Numbers beyond 1e38 make the correction not finite.
+struct BodyFrameBlock {
+  static constexpr int kFrame = 0;    // Q
+  static constexpr int kTurn = 9;     // φ, in the frame; with a row only.
+  static constexpr int kStrain = 12;  // ε̄, likewise.
+  static constexpr int kSize = 18;
 };
 
 // Of the elimination of the right joint, with its block B of the diagonal when
@@ -146,7 +154,8 @@ struct ChainGroup {
   const double* loads = nullptr;
   double* iterate = nullptr;
   double* scratch = nullptr;
-  double* factor = nullptr;  // Of a row.
+  float* frames = nullptr;
+  float* factor = nullptr;  // Of a row.
   double* piece = nullptr;
 };
 

@@ -57,22 +57,16 @@ JointNet::JointNet(const Structure& structure,
       shift_(JointShift(structure)),
       packs_(structure, time_step, NumPacks(structure.bodies.size()),
              InOrder(structure.bodies.size())),
-      joints_(joints.size()),
+      num_joints_(static_cast<int>(joints.size())),
       matrix_(MakeMatrix(joints)),
       factor_(matrix_, /*positive_definite=*/true),
       pieces_(AllocatePacks((packs_.packs() + kGroupLength - 1) / kGroupLength,
                             PieceBlock::kSize)) {
   packs_.NeedLoads();
-  for (size_t j = 0; j < joints.size(); ++j) {
-    Joint& joint = joints_[j];
-    joint.weights = joints[j].weights;
-    joint.multiplier = MultiplierOffset(structure, static_cast<int>(j));
-    for (size_t side = 0; side < 2; ++side) {
-      if (joints[j].bodies[side] == BodyJoint::kNone) continue;
-      joint.slots[side] = static_cast<size_t>(joints[j].bodies[side]);
-      ++joint.num_bodies;
-    }
+  for (int j = 0; j < num_joints_; ++j) {
+    multipliers_.push_back(MultiplierOffset(structure, j));
   }
+  MakePlaces(joints);
   MakeCouplings(structure, joints);
   constexpr int kSize = BodyConstants::kBodySize;
   constants_ = AllocatePacks(packs_.packs(), kSize);
@@ -84,8 +78,70 @@ JointNet::JointNet(const Structure& structure,
                      constants_.get() + b / kLanes * kSize * kLanes,
                      b % kLanes);
   }
-  right_side_.setZero(3 * static_cast<Eigen::Index>(joints.size()));
+  right_side_.setZero(3 * Eigen::Index{num_joints_});
   solution_ = right_side_;
+  impulses_.setZero(right_side_.size() + 3);
+  steps_ = impulses_;
+}
+
+void JointNet::MakePlaces(const std::vector<BodyJoint>& joints) {
+  std::vector<std::vector<int>> of_body = JointsOfBodies(joints);
+  of_body.resize(packs_.packs() * kLanes);
+  first_place_.push_back(0);
+  for (size_t pack = 0; pack < packs_.packs(); ++pack) {
+    size_t places = 0;
+    for (size_t lane = 0; lane < kLanes; ++lane) {
+      places = std::max(places, of_body[pack * kLanes + lane].size());
+    }
+    first_place_.push_back(first_place_.back() + places);
+  }
+  const size_t num_places = first_place_.back();
+  const size_t joint_packs = NumPacks(joints.size());
+  weights_ = AllocatePacks(num_places, PlaceBlock::kSize);
+  // The last is zero: of the side of a joint that has no body.
+  points_ = AllocatePacks(num_places + 1, PointBlock::kSize);
+  constexpr auto kPoint = static_cast<int64_t>(PointBlock::kSize * kLanes);
+  const int64_t no_point = static_cast<int64_t>(num_places) * kPoint;
+  joint_of_place_ = AllocatePacks<int64_t>(num_places, 1);
+  std::fill_n(joint_of_place_.get(), num_places * kLanes,
+              int64_t{3} * num_joints_);
+  for (auto& points : point_of_joint_) {
+    points = AllocatePacks<int64_t>(joint_packs, 1);
+    std::fill_n(points.get(), joint_packs * kLanes, no_point);
+  }
+  rates_ = AllocatePacks(joint_packs, JointRateBlock::kSize);
+  frames_ = AllocatePacks(joint_packs, kJointFrameSize);
+  for (size_t slot = 0; slot < of_body.size(); ++slot) {
+    const auto body = static_cast<int>(slot);
+    size_t place = first_place_[slot / kLanes];
+    for (const int joint : of_body[slot]) {
+      const auto j = static_cast<size_t>(joint);
+      const size_t side = joints[j].bodies[0] == body ? 0 : 1;
+      double* const weights =
+          weights_.get() + place * PlaceBlock::kSize * kLanes;
+      for (int a = 0; a < 4; ++a) {
+        PackEntry(weights, PlaceBlock::kWeight + a, slot % kLanes) =
+            joints[j].weights[side](a);
+      }
+      joint_of_place_[place * kLanes + slot % kLanes] = int64_t{3} * joint;
+      point_of_joint_[side][j] = static_cast<int64_t>(place) * kPoint +
+                                 static_cast<int64_t>(slot % kLanes);
+      ++place;
+    }
+  }
+  for (const BodyJoint& joint : joints) {
+    first_bodies_.push_back(static_cast<size_t>(joint.bodies[0]));
+  }
+}
+
+int JointNet::NumPlaces(size_t pack) const {
+  return static_cast<int>(first_place_[pack + 1] - first_place_[pack]);
+}
+
+JointPacks JointNet::Joints() const {
+  return {.count = num_joints_,
+          .point = {point_of_joint_[0].get(), point_of_joint_[1].get()},
+          .points = points_.get()};
 }
 
 void JointNet::MakeCouplings(const Structure& structure,
@@ -121,6 +177,7 @@ ChainGroup JointNet::Group(size_t group) {
   g.loads = packs_.loads(first);
   g.iterate = packs_.iterate(first);
   g.scratch = packs_.scratch(first);
+  g.frames = packs_.frames(first);
   g.piece = pieces_.get() + group * PieceBlock::kSize * kLanes;
   return g;
 }
@@ -128,61 +185,64 @@ ChainGroup JointNet::Group(size_t group) {
 void JointNet::Load(const State& state) {
   using B = BodyStartBlock;
   is_fresh_ = false;
+  frames_are_old_ = true;
   packs_.Load(state, 0, packs_.packs());
-  for (Joint& joint : joints_) {
-    joint.impulse =
-        time_step_ * state.multiplier.next.segment<3>(joint.multiplier);
-    joint.rate.setZero();
-    joint.rest.setZero();
-    for (int side = 0; side < joint.num_bodies; ++side) {
-      const size_t slot = joint.slots[static_cast<size_t>(side)];
-      const Vector4d& weight = joint.weights[static_cast<size_t>(side)];
-      const double* const start = packs_.start(slot / kLanes);
-      for (int a = 0; a < 4; ++a) {
-        joint.rate +=
-            weight(a) * PackVector(start, B::kVelocity + 3 * a, slot % kLanes);
-        joint.rest +=
-            weight(a) *
-            PackVector(start, B::kVelocityCompensation + 3 * a, slot % kLanes);
-      }
-    }
+  SumPoints([this](size_t pack) {
+    const double* const start = packs_.start(pack);
+    return std::pair(start + B::kVelocity * kLanes,
+                     start + B::kVelocityCompensation * kLanes);
+  });
+  SetJointRates(Joints(), rates_.get());
+  for (int j = 0; j < num_joints_; ++j) {
+    impulses_.segment<3>(3 * Eigen::Index{j}) =
+        time_step_ *
+        state.multiplier.next.segment<3>(multipliers_[static_cast<size_t>(j)]);
   }
 }
 
-// Adds `factor` times Gᵀ of the impulses, or of their corrections.
-void JointNet::AddToLoads(double factor, bool steps) {
-  for (const Joint& joint : joints_) {
-    const Vector3d impulse = factor * (steps ? joint.step : joint.impulse);
-    for (int side = 0; side < joint.num_bodies; ++side) {
-      const size_t slot = joint.slots[static_cast<size_t>(side)];
-      const Vector4d& weight = joint.weights[static_cast<size_t>(side)];
-      double* const loads = packs_.loads(slot / kLanes);
-      for (int a = 0; a < 4; ++a) {
-        for (int i = 0; i < 3; ++i) {
-          PackEntry(loads, 3 * a + i, slot % kLanes) += weight(a) * impulse(i);
-        }
-      }
-    }
+// Gᵀ of the impulses, times `factor`, in the loads of a group.
+void JointNet::SetImpulses(size_t group, double factor,
+                           const VectorXd& impulses, bool is_first) {
+  const size_t first = group * kGroupLength;
+  const size_t last = std::min(first + kGroupLength, packs_.packs());
+  for (size_t pack = first; pack < last; ++pack) {
+    const size_t place = first_place_[pack];
+    AddImpulses(weights_.get() + place * PlaceBlock::kSize * kLanes,
+                joint_of_place_.get() + place * kLanes, NumPlaces(pack), factor,
+                impulses.data(), is_first, packs_.loads(pack));
   }
 }
 
 const JointSums& JointNet::Evaluate(ForwardWork work) {
-  packs_.ClearLoads();
-  packs_.SetLoads();
-  AddToLoads(-1.0, /*steps=*/false);
+  const bool has_loads = packs_.SetLoads();
   const size_t groups = (packs_.packs() + kGroupLength - 1) / kGroupLength;
   for (size_t group = 0; group < groups; ++group) {
+    SetImpulses(group, -1.0, impulses_, /*is_first=*/!has_loads);
     ChainForward(Group(group), work);
   }
   AddPieceSums(work, pieces_.get(), groups, &sums_);
+  // They turn so little in an iteration that those of its start will do.
+  if (std::exchange(frames_are_old_, false) || renew_) SetFrames();
   if (renew_) is_singular_ = !Factorize();
   return sums_;
 }
 
-// Of the first body of a joint.
-Matrix3d JointNet::Frame(const Joint& joint) {
-  return PackMatrix(packs_.scratch(joint.slots[0] / kLanes),
-                    BodyScratchBlock::kFrame, joint.slots[0] % kLanes);
+// Of the first body of each joint.
+void JointNet::SetFrames() {
+  for (int j = 0; j < num_joints_; ++j) {
+    const auto joint = static_cast<size_t>(j);
+    const size_t slot = first_bodies_[joint];
+    SetPackMatrix(PackMatrix(packs_.frames(slot / kLanes),
+                             BodyFrameBlock::kFrame, slot % kLanes),
+                  frames_.get() + joint / kLanes * kJointFrameSize * kLanes, 0,
+                  joint % kLanes);
+  }
+}
+
+Matrix3d JointNet::Frame(int joint) const {
+  const auto j = static_cast<size_t>(joint);
+  return PackMatrix(frames_.get() + j / kLanes * kJointFrameSize * kLanes, 0,
+                    j % kLanes);
 }
 
 bool JointNet::Factorize() {
@@ -192,12 +252,10 @@ bool JointNet::Factorize() {
   matrix_.SetZero();
   for (const Coupling& coupling : couplings_) {
     const Matrix3d body =
-        PackMatrix(packs_.scratch(coupling.slot / kLanes),
-                   BodyScratchBlock::kFrame, coupling.slot % kLanes);
-    const Matrix3d left =
-        Frame(joints_[static_cast<size_t>(coupling.row)]).transpose() * body;
-    const Matrix3d right =
-        Frame(joints_[static_cast<size_t>(coupling.column)]).transpose() * body;
+        PackMatrix(packs_.frames(coupling.slot / kLanes),
+                   BodyFrameBlock::kFrame, coupling.slot % kLanes);
+    const Matrix3d left = Frame(coupling.row).transpose() * body;
+    const Matrix3d right = Frame(coupling.column).transpose() * body;
     Matrix3d block = left * coupling.compliance * right.transpose();
     if (coupling.row == coupling.column) {
       // Half of it for each of two bodies would do as well.
@@ -209,42 +267,24 @@ bool JointNet::Factorize() {
 }
 
 JointCorrection JointNet::Correct(std::optional<ForwardWork> /*next*/) {
-  using S = BodyScratchBlock;
-  for (size_t j = 0; j < joints_.size(); ++j) {
-    const Joint& joint = joints_[j];
-    Vector3d side = Vector3d::Zero();
-    Vector3d rest = joint.rest;
-    for (int k = 0; k < joint.num_bodies; ++k) {
-      const size_t slot = joint.slots[static_cast<size_t>(k)];
-      const Vector4d& weight = joint.weights[static_cast<size_t>(k)];
-      const double* const scratch = packs_.scratch(slot / kLanes);
-      const double* const iterate = packs_.iterate(slot / kLanes);
-      for (int a = 0; a < 4; ++a) {
-        side += weight(a) *
-                PackVector(scratch, S::kCorrection + 3 * a, slot % kLanes);
-        rest += (0.5 * weight(a)) *
-                PackVector(iterate, BodyIterateBlock::kRateIncrement + 3 * a,
-                           slot % kLanes);
-      }
-    }
-    right_side_.segment<3>(3 * static_cast<Eigen::Index>(j)) =
-        Frame(joint).transpose() * (side - 2.0 * (joint.rate + rest));
-  }
+  SumPoints([this](size_t pack) {
+    return std::pair(
+        packs_.scratch(pack) + BodyScratchBlock::kCorrection * kLanes,
+        packs_.iterate(pack) + BodyIterateBlock::kRateIncrement * kLanes);
+  });
+  SetRightSide(Joints(), rates_.get(), frames_.get(), right_side_.data());
   if (is_singular_) {
     solution_.setConstant(std::numeric_limits<double>::quiet_NaN());
   } else {
     factor_.Solve(right_side_, &solution_);
   }
-  for (size_t j = 0; j < joints_.size(); ++j) {
-    Joint& joint = joints_[j];
-    joint.step =
-        Frame(joint) * solution_.segment<3>(3 * static_cast<Eigen::Index>(j));
-    joint.impulse -= joint.step;
-  }
-  packs_.ClearLoads();
-  AddToLoads(1.0, /*steps=*/true);
+  TurnBack(num_joints_, frames_.get(), solution_.data(), steps_.data(),
+           impulses_.data());
   const size_t groups = (packs_.packs() + kGroupLength - 1) / kGroupLength;
-  for (size_t group = 0; group < groups; ++group) ChainBackward(Group(group));
+  for (size_t group = 0; group < groups; ++group) {
+    SetImpulses(group, 1.0, steps_, /*is_first=*/true);
+    ChainBackward(Group(group));
+  }
   return PieceCorrection(pieces_.get(), groups);
 }
 
@@ -260,13 +300,14 @@ void JointNet::Commit(State& state) {
   }
   rate_order_ = rate_order;
   Extrapolation::Errors multiplier_errors{};
-  for (const Joint& joint : joints_) {
-    state.multiplier.Add(joint.multiplier, joint.impulse / time_step_,
+  for (int j = 0; j < num_joints_; ++j) {
+    state.multiplier.Add(multipliers_[static_cast<size_t>(j)],
+                         impulses_.segment<3>(3 * Eigen::Index{j}) / time_step_,
                          &multiplier_errors);
   }
   const int order = Extrapolation::BestOrder(multiplier_errors);
-  for (const Joint& joint : joints_) {
-    state.multiplier.Predict(joint.multiplier, 3, order);
+  for (const Eigen::Index multiplier : multipliers_) {
+    state.multiplier.Predict(multiplier, 3, order);
   }
 }
 

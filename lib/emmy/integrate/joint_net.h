@@ -9,6 +9,7 @@
 #define EMMY_INTEGRATE_JOINT_NET_H_
 
 #include <array>
+#include <cstdint>
 #include <optional>
 #include <vector>
 
@@ -16,6 +17,7 @@
 #include "emmy/integrate/body_packs.h"
 #include "emmy/integrate/coupled_tangent.h"
 #include "emmy/integrate/joint_graph.h"
+#include "emmy/integrate/joint_points.h"
 #include "emmy/integrate/joint_system.h"
 #include "emmy/integrate/structure.h"
 #include "emmy/model/state.h"
@@ -40,16 +42,6 @@ class JointNet : public JointSystem {
   int num_factorizations() const override { return num_factorizations_; }
 
  private:
-  struct Joint {
-    std::array<size_t, 2> slots = {0, 0};
-    std::array<Vector4d, 2> weights;
-    int num_bodies = 0;
-    Eigen::Index multiplier = 0;
-    Vector3d impulse = Vector3d::Zero();  // Δt λ
-    Vector3d step = Vector3d::Zero();     // Its correction.
-    Vector3d rate = Vector3d::Zero();     // G w₀, by values
-    Vector3d rest = Vector3d::Zero();     // and by compensations.
-  };
   // A body's part of S: joints `row` ≥ `column`.
   struct Coupling {
     int row;
@@ -62,21 +54,49 @@ class JointNet : public JointSystem {
   static SymmetricBlockMatrix MakeMatrix(const std::vector<BodyJoint>& joints);
   void MakeCouplings(const Structure& structure,
                      const std::vector<BodyJoint>& joints);
+  void MakePlaces(const std::vector<BodyJoint>& joints);
+  int NumPlaces(size_t pack) const;
   ChainGroup Group(size_t group);
-  Matrix3d Frame(const Joint& joint);
-  void AddToLoads(double factor, bool steps);
+  JointPacks Joints() const;
+  // The sums of what vectors(pack) says at all places.
+  template <typename Vectors>
+  void SumPoints(const Vectors& vectors) {
+    for (size_t pack = 0; pack < packs_.packs(); ++pack) {
+      const auto [first, second] = vectors(pack);
+      const size_t place = first_place_[pack];
+      SumAtPlaces(weights_.get() + place * PlaceBlock::kSize * kLanes,
+                  NumPlaces(pack), first, second,
+                  points_.get() + place * PointBlock::kSize * kLanes);
+    }
+  }
+  void SetImpulses(size_t group, double factor, const VectorXd& impulses,
+                   bool is_first);
+  void SetFrames();
+  Matrix3d Frame(int joint) const;
   bool Factorize();
 
   const Structure* structure_;
   double time_step_;
   double shift_;
   BodyPacks packs_;
-  std::vector<Joint> joints_;
+  int num_joints_;
+  std::vector<Eigen::Index> multipliers_;
+  std::vector<size_t> first_bodies_;  // Slots.
+  // Of each pack of bodies, and one more; see joint_points.h.
+  std::vector<size_t> first_place_;
+  PackArray weights_, points_;
+  PackArrayOf<int64_t> joint_of_place_;
+  std::array<PackArrayOf<int64_t>, 2> point_of_joint_;
+  PackArray rates_, frames_;
+  // Δt λ and its correction, three numbers a joint; none for the joint without
+  // a number, which is the last.
+  VectorXd impulses_, steps_;
   std::vector<Coupling> couplings_;
   SymmetricBlockMatrix matrix_;
   SymmetricFactor factor_;
   bool renew_ = true;
-  bool is_fresh_ = false;  // Made in this step.
+  bool frames_are_old_ = true;  // Of an earlier step.
+  bool is_fresh_ = false;       // Made in this step.
   bool is_singular_ = false;
   PackArray constants_, pieces_;
   std::vector<const double*> constants_of_pack_;

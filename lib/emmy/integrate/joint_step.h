@@ -12,6 +12,7 @@
 #ifndef EMMY_INTEGRATE_JOINT_STEP_H_
 #define EMMY_INTEGRATE_JOINT_STEP_H_
 
+#include <cstdint>
 #include <memory>
 #include <string>
 
@@ -55,6 +56,7 @@ class JointStep {
             std::unique_ptr<JointSystem> system);
 
   BodyStepResult Iterate();
+  void Age(int iterations, bool is_fresh);
 
   const Structure* structure_;
   double time_step_;
@@ -64,6 +66,9 @@ class JointStep {
   std::unique_ptr<CoupledStep> coupled_;
   bool used_coupled_ = false;
   int last_iterations_ = 0;
+  // See KeptTangent.
+  int64_t fresh_iterations_ = 0;
+  int64_t excess_iterations_ = 0;
 };
 
 }  // namespace emmy
