@@ -51,7 +51,7 @@ struct RunArguments {
 absl::Status CheckResumable(const RunArguments& arguments,
                             const Checkpoint& checkpoint,
                             const LoadedCase& loaded, int64_t num_steps) {
-  const absl::Status same =
+  absl::Status same =
       CheckSameCase(checkpoint, loaded.description, loaded.state);
   if (!same.ok()) return same;
   if (checkpoint.state.step > num_steps) {

@@ -64,7 +64,7 @@ class Counter {
     Show("");
   }
   ~Counter() {
-    if (enabled_) std::fputs("\r\033[K", stderr);
+    if (enabled_) static_cast<void>(std::fputs("\r\033[K", stderr));
   }
   Counter(const Counter&) = delete;
   Counter& operator=(const Counter&) = delete;
@@ -77,9 +77,10 @@ class Counter {
  private:
   void Show(const std::string& last) const {
     if (!enabled_) return;
-    std::fprintf(stderr, "\r%zu of %zu claims checked  %s\033[K", done_, total_,
-                 last.c_str());
-    std::fflush(stderr);
+    static_cast<void>(std::fprintf(stderr,
+                                   "\r%zu of %zu claims checked  %s\033[K",
+                                   done_, total_, last.c_str()));
+    static_cast<void>(std::fflush(stderr));
   }
 
   size_t total_;
