@@ -137,6 +137,8 @@ TEST(CheckpointLayoutTest, IsThatOfVersionOne) {
   fill(kept.matrix);
   fill(kept.positions);
   fill(kept.turn);
+  kept.fresh_iterations = 107;
+  kept.excess_iterations = 108;
   checkpoint.kept = {kept};
   for (double& error : checkpoint.extremes.max_error) error = ++number;
   for (double& scale : checkpoint.extremes.scale) scale = ++number;
@@ -148,8 +150,8 @@ TEST(CheckpointLayoutTest, IsThatOfVersionOne) {
 
   const std::string bytes = EncodeCheckpoint(checkpoint).value();
   // The first line, the length, the fields, and the sum of all before it.
-  EXPECT_EQ(bytes.size(), 18U + 8U + 769U + 8U);
-  EXPECT_EQ(Crc64(bytes.substr(0, bytes.size() - 8)), 13135255971113100170U);
+  EXPECT_EQ(bytes.size(), 18U + 8U + 785U + 8U);
+  EXPECT_EQ(Crc64(bytes.substr(0, bytes.size() - 8)), 8154566751565594202U);
 }
 
 TEST_F(CheckpointTest, KeepsSignsOfZeroAndDenormalNumbers) {

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/SparseCholesky>
+#include <utility>
 #include <vector>
 
 #include "tests/support/random_source.h"

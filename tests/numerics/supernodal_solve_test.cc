@@ -116,6 +116,17 @@ TYPED_TEST(SupernodalSolveTest, RefusesPivotsThatVanishOrAreNotFinite) {
   EXPECT_LE(this->Error(good, &solve), this->Bound(good));
 }
 
+// Where no other column depends on it.
+TYPED_TEST(SupernodalSolveTest, RefusesAZeroByItself) {
+  SparseMatrix matrix(3, 3);
+  matrix.setIdentity();
+  SupernodalSolve<TypeParam> solve;
+  solve.Analyze(matrix);
+  EXPECT_TRUE(solve.Factorize(matrix));
+  matrix.coeffRef(1, 1) = 0.0;
+  EXPECT_FALSE(solve.Factorize(matrix));
+}
+
 // A dense matrix is one panel after the other, each the widest there is.
 TYPED_TEST(SupernodalSolveTest, FactorizesWidePanels) {
   constexpr int kSize = 250;

@@ -61,8 +61,8 @@ BENCHMARK(Net)
     ->Args({120, 1000})
     ->Unit(benchmark::kMillisecond);
 
-// Arguments: nodes a side, threads. Few steps: the factorisation alone takes
-// minutes at this size on some machines, and is not what is timed.
+// Arguments: nodes a side, threads. Few steps: building the model and its first
+// factorisation take longer, and are not what is timed.
 void LargeNet(benchmark::State& state) {
   IntegratorOptions options = Options(1e-3);
   options.num_threads = static_cast<int>(state.range(1));
@@ -79,7 +79,8 @@ BENCHMARK(LargeNet)
     ->Unit(benchmark::kMillisecond)
     ->Iterations(10);
 
-// Newton's method with a fresh factorisation in every iteration.
+// Newton's method with a fresh factorisation, by Eigen or CHOLMOD, in every
+// iteration.
 void FreshFactors(benchmark::State& state, SymmetricFactor::Method method) {
   IntegratorOptions options =
       Options(1e-6 * static_cast<double>(state.range(1)));

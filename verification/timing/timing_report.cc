@@ -138,7 +138,7 @@ const std::vector<Ratio>& Ratios() {
        "box_and_truss/ancf", 1.0, true,
        "set: a constant inverse (LANE-5) should not be slower than a mass that "
        "turns"},
-      {"net 60 x 60, 1 ms: fresh LDLT factors over a kept one",
+      {"net 60 x 60, 1 ms: fresh factors of Eigen's LDLT over a kept one",
        "net/fresh_ldlt/side:60/step_us:1000",
        "net/kept_factor/side:60/step_us:1000", 20.0, true,
        "set: a fifth of sqrt(N), see the next"},

@@ -37,8 +37,8 @@ struct KeptTangent {
   VectorXd matrix;      // Entries of A when it was factorised; none: not kept.
   Matrix3Xd positions;  // q̄ at that point.
   Matrix3d turn = Matrix3d::Identity();  // Of the whole since then.
-  // By JointStep: iterations of the step that made it, and how many more those
-  // since then have needed.
+  // By JointStep: the fewest iterations of a step with it, and how many more
+  // than that the others have needed.
   int64_t fresh_iterations = 0;
   int64_t excess_iterations = 0;
 };

@@ -9,6 +9,7 @@
 #define EMMY_INTEGRATE_JOINT_NET_H_
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <vector>
@@ -37,6 +38,7 @@ class JointNet : public JointSystem {
   JointCorrection Correct(std::optional<ForwardWork> next) override;
   void Commit(State& state) override;
   bool Renew() override;
+  void Forget() override { renew_ = true; }
   KeptTangent Keep() const override;
   bool Restore(const KeptTangent& kept) override;
   int num_factorizations() const override { return num_factorizations_; }
@@ -88,8 +90,8 @@ class JointNet : public JointSystem {
   PackArrayOf<int64_t> joint_of_place_;
   std::array<PackArrayOf<int64_t>, 2> point_of_joint_;
   PackArray rates_, frames_;
-  // Δt λ and its correction, three numbers a joint; none for the joint without
-  // a number, which is the last.
+  // Δt λ and its correction, three numbers a joint; the last three are zero,
+  // for places of bodies that have fewer joints than others.
   VectorXd impulses_, steps_;
   std::vector<Coupling> couplings_;
   SymmetricBlockMatrix matrix_;

@@ -1,10 +1,13 @@
 // What bodies and the joints between them exchange, by SIMD.
 //
 // A body in lane l of a pack (joint_chain_kernel.h) has its joints at `places`
-// of its pack, the same number in all lanes: weights g₀, g₁, g₂, g₃ there are
-// zero, and the joint is one without a number, where it has fewer. Joints are
-// in packs of eight, too. Lanes never mix, products are rounded before they are
-// added: the bits are the same with every instruction set.
+// of its pack, the same number in all lanes. Where a body has fewer, weights
+// g₀, g₁, g₂, g₃ are zero, and the joint is one whose impulse is always zero.
+// Joints are in packs of eight, too. Lanes never mix, products are rounded
+// before they are added: the bits are the same with every instruction set.
+//
+// Arrays of blocks, and of where joints and points are, are aligned for vectors
+// (AllocatePacks); arrays of three numbers a joint need not be.
 
 #ifndef EMMY_INTEGRATE_JOINT_POINTS_H_
 #define EMMY_INTEGRATE_JOINT_POINTS_H_

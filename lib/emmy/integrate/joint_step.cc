@@ -138,7 +138,9 @@ void JointStep::Age(int iterations, bool is_fresh) {
     excess_iterations_ = 0;
     return;
   }
-  excess_iterations_ += std::max<int64_t>(iterations - fresh_iterations_, 0);
+  // A step that makes one in its course has needed many before that.
+  fresh_iterations_ = std::min<int64_t>(fresh_iterations_, iterations);
+  excess_iterations_ += iterations - fresh_iterations_;
   if (excess_iterations_ >= kFactorization) system_->Renew();
 }
 
@@ -152,7 +154,10 @@ BodyStepResult JointStep::Solve(const State& state) {
     Age(result.iterations, system_->num_factorizations() != factorizations);
     return result;
   }
-  system_->Renew();
+  // A matrix made in an iteration that failed would not do for the next.
+  system_->Forget();
+  fresh_iterations_ = 0;
+  excess_iterations_ = 0;
   if (coupled_ == nullptr) {
     coupled_ = std::make_unique<CoupledStep>(*structure_, time_step_, options_);
   }

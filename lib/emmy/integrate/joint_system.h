@@ -58,6 +58,9 @@ class JointSystem {
   // kFactorize or, in a step, at once; false if none was kept.
   virtual bool Renew() { return false; }
 
+  // Nothing is kept for the next step.
+  virtual void Forget() {}
+
   // What is kept from step to step, and back to it; see CoupledTangent.
   virtual KeptTangent Keep() const { return {}; }
   virtual bool Restore(const KeptTangent& kept) {

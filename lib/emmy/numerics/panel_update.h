@@ -11,8 +11,8 @@
 
 namespace emmy {
 
-// Rows are treated in blocks of this many; arrays must be as much longer than
-// what they hold.
+// Rows are treated in blocks of this many: the array of A must be as much
+// longer than what it holds.
 inline constexpr int kPanelUpdateUnit = 16;
 
 // C = A B: A is `rows` × `inner` by columns, `a_stride` apart; B `inner` ×

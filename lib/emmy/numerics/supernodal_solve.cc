@@ -306,7 +306,7 @@ void SupernodalSolve<Scalar>::Subtract(const Supernode& from,
 // L of one panel, and D on its diagonal.
 template <typename Scalar>
 bool SupernodalSolve<Scalar>::FactorizePanel(const Supernode& node) {
-  constexpr int kBlock = 8;  // Columns that take the others' part at once.
+  constexpr int kBlock = 8;  // Columns of one PanelUpdate.
   constexpr int kUnit = kPanelUpdateUnit;
   double* const panel = FactorPanel(node);
   const std::ptrdiff_t height = node.height;
@@ -350,14 +350,14 @@ bool SupernodalSolve<Scalar>::FactorizePanel(const Supernode& node) {
 
 template <typename Scalar>
 void SupernodalSolve<Scalar>::InvertPanel(const Supernode& node) {
-  using Panel = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic>;
-  const Eigen::Map<const Panel> factor(FactorPanel(node), node.height,
-                                       node.columns);
+  const Eigen::Map<const MatrixXd> factor(FactorPanel(node), node.height,
+                                          node.columns);
   inverse_diagonal_.segment(node.place, node.columns) =
       factor.diagonal().cwiseInverse().template cast<Scalar>();
-  const Panel inverse = factor.topRows(node.columns)
-                            .template triangularView<Eigen::UnitLower>()
-                            .solve(Panel::Identity(node.columns, node.columns));
+  const MatrixXd inverse =
+      factor.topRows(node.columns)
+          .template triangularView<Eigen::UnitLower>()
+          .solve(MatrixXd::Identity(node.columns, node.columns));
   Eigen::Map<Eigen::Matrix<Scalar, Eigen::Dynamic, Eigen::Dynamic>> panel(
       panels_.data() + node.panel_start, node.height, node.columns);
   panel.topRows(node.columns) = inverse.template cast<Scalar>();

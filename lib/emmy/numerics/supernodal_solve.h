@@ -28,6 +28,7 @@
 
 #include <Eigen/Core>
 #include <Eigen/SparseCore>
+#include <cstddef>
 #include <vector>
 
 #include "emmy/base/types.h"
