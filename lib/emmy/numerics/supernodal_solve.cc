@@ -267,32 +267,43 @@ void SupernodalSolve<Scalar>::FormPanel(const SparseMatrix& permuted,
   }
 }
 
-// L₂ D L₂ᵀ of an earlier panel.
+// product_ = L₂ D L₁ᵀ, by columns: L₂ is `num_rows` rows of the first `inner`
+// columns of a panel from `first_row` on, L₁ the first `num_columns` of them.
+// Returns the length of a column.
 template <typename Scalar>
-void SupernodalSolve<Scalar>::Subtract(const Supernode& from,
-                                       const Supernode& node) {
-  const int* const rows = Rows(from) + from.first_common;
-  const int num_rows = from.rows - from.first_common;
-  const int end = node.first + node.columns;
-  int num_columns = 0;
-  while (num_columns < num_rows && rows[num_columns] < end) ++num_columns;
-
-  const double* const panel = FactorPanel(from);
-  const double* const common = panel + from.columns + from.first_common;
-  scaled_.resize(static_cast<size_t>(from.columns * num_columns));
+std::ptrdiff_t SupernodalSolve<Scalar>::Multiply(const Supernode& node,
+                                                 int inner, int first_row,
+                                                 int num_rows,
+                                                 int num_columns) {
+  const double* const panel = FactorPanel(node);
+  scaled_.resize(static_cast<size_t>(inner * num_columns));
   double* scaled = scaled_.data();
-  for (int k = 0; k < from.columns; ++k) {
-    const std::ptrdiff_t column = std::ptrdiff_t{k} * from.height;
+  for (int k = 0; k < inner; ++k) {
+    const std::ptrdiff_t column = std::ptrdiff_t{k} * node.height;
     const double pivot = panel[column + k];
     for (int j = 0; j < num_columns; ++j) {
-      *scaled++ = pivot * common[column + j];
+      *scaled++ = pivot * panel[column + first_row + j];
     }
   }
   constexpr int kUnit = kPanelUpdateUnit;
   const std::ptrdiff_t stride = (num_rows + kUnit - 1) / kUnit * kUnit;
   product_.resize(static_cast<size_t>(stride * num_columns));
-  PanelUpdate(common, from.height, num_rows, from.columns, scaled_.data(),
+  PanelUpdate(panel + first_row, node.height, num_rows, inner, scaled_.data(),
               num_columns, product_.data(), stride);
+  return stride;
+}
+
+// What an earlier panel gives to this one; its rows there are done with.
+template <typename Scalar>
+void SupernodalSolve<Scalar>::Subtract(Supernode* from, const Supernode& node) {
+  const int* const rows = Rows(*from) + from->first_common;
+  const int num_rows = from->rows - from->first_common;
+  const int end = node.first + node.columns;
+  int num_columns = 0;
+  while (num_columns < num_rows && rows[num_columns] < end) ++num_columns;
+  const std::ptrdiff_t stride =
+      Multiply(*from, from->columns, from->columns + from->first_common,
+               num_rows, num_columns);
   for (int j = 0; j < num_columns; ++j) {
     double* const column =
         FactorPanel(node) + std::ptrdiff_t{rows[j] - node.first} * node.height;
@@ -301,31 +312,21 @@ void SupernodalSolve<Scalar>::Subtract(const Supernode& from,
       column[row_in_panel_[static_cast<size_t>(rows[i])]] -= product[i];
     }
   }
+  from->first_common += num_columns;
 }
 
 // L of one panel, and D on its diagonal.
 template <typename Scalar>
 bool SupernodalSolve<Scalar>::FactorizePanel(const Supernode& node) {
   constexpr int kBlock = 8;  // Columns of one PanelUpdate.
-  constexpr int kUnit = kPanelUpdateUnit;
   double* const panel = FactorPanel(node);
   const std::ptrdiff_t height = node.height;
   for (int first = 0; first < node.columns; first += kBlock) {
     const int count = std::min(kBlock, node.columns - first);
     const int num_rows = node.height - first;
     if (first > 0) {
-      scaled_.resize(static_cast<size_t>(first * count));
-      double* scaled = scaled_.data();
-      for (int k = 0; k < first; ++k) {
-        const double* const column = panel + k * height;
-        for (int j = 0; j < count; ++j) {
-          *scaled++ = column[k] * column[first + j];
-        }
-      }
-      const std::ptrdiff_t stride = (num_rows + kUnit - 1) / kUnit * kUnit;
-      product_.resize(static_cast<size_t>(stride * count));
-      PanelUpdate(panel + first, height, num_rows, first, scaled_.data(), count,
-                  product_.data(), stride);
+      const std::ptrdiff_t stride =
+          Multiply(node, first, first, num_rows, count);
       for (int j = 0; j < count; ++j) {
         double* const column = panel + (first + j) * height + first;
         const double* const product = product_.data() + j * stride;
@@ -388,12 +389,7 @@ bool SupernodalSolve<Scalar>::Factorize(const SparseMatrix& a) {
     for (size_t from = first_waiting_[n]; from < count;) {
       Supernode& earlier = supernodes_[from];
       const size_t next = earlier.next_waiting;
-      Subtract(earlier, node);
-      const int end = node.first + node.columns;
-      while (earlier.first_common < earlier.rows &&
-             Rows(earlier)[earlier.first_common] < end) {
-        ++earlier.first_common;
-      }
+      Subtract(&earlier, node);
       Wait(from);
       from = next;
     }

@@ -101,7 +101,9 @@ class SupernodalSolve {
   void DealOutParts();
   void PlaceUnknowns();
   void FormPanel(const SparseMatrix& permuted, const Supernode& node);
-  void Subtract(const Supernode& from, const Supernode& node);
+  std::ptrdiff_t Multiply(const Supernode& node, int inner, int first_row,
+                          int num_rows, int num_columns);
+  void Subtract(Supernode* from, const Supernode& node);
   bool FactorizePanel(const Supernode& node);
   void InvertPanel(const Supernode& node);
   void Wait(size_t supernode);
