@@ -137,7 +137,7 @@ TEST(CheckpointLayoutTest, IsThatOfVersionOne) {
   fill(kept.matrix);
   fill(kept.positions);
   fill(kept.turn);
-  kept.fresh_iterations = 107;
+  kept.fewest_iterations = 107;
   kept.excess_iterations = 108;
   checkpoint.kept = {kept};
   for (double& error : checkpoint.extremes.max_error) error = ++number;

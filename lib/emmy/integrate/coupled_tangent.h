@@ -39,7 +39,7 @@ struct KeptTangent {
   Matrix3d turn = Matrix3d::Identity();  // Of the whole since then.
   // By JointStep: the fewest iterations of a step with it, and how many more
   // than that the others have needed.
-  int64_t fresh_iterations = 0;
+  int64_t fewest_iterations = 0;
   int64_t excess_iterations = 0;
 };
 

@@ -134,13 +134,13 @@ BodyStepResult JointStep::Iterate() {
 // made anew when the iterations this has cost are as much work as that.
 void JointStep::Age(int iterations, bool is_fresh) {
   if (is_fresh) {
-    fresh_iterations_ = iterations;
+    fewest_iterations_ = iterations;
     excess_iterations_ = 0;
     return;
   }
   // A step that makes one in its course has needed many before that.
-  fresh_iterations_ = std::min<int64_t>(fresh_iterations_, iterations);
-  excess_iterations_ += iterations - fresh_iterations_;
+  fewest_iterations_ = std::min<int64_t>(fewest_iterations_, iterations);
+  excess_iterations_ += iterations - fewest_iterations_;
   if (excess_iterations_ >= kFactorization) system_->Renew();
 }
 
@@ -156,7 +156,7 @@ BodyStepResult JointStep::Solve(const State& state) {
   }
   // A matrix made in an iteration that failed would not do for the next.
   system_->Forget();
-  fresh_iterations_ = 0;
+  fewest_iterations_ = 0;
   excess_iterations_ = 0;
   if (coupled_ == nullptr) {
     coupled_ = std::make_unique<CoupledStep>(*structure_, time_step_, options_);
@@ -181,13 +181,13 @@ std::string JointStep::WorstPart() const { return coupled_->WorstPart(); }
 
 KeptTangent JointStep::Keep() const {
   KeptTangent kept = system_->Keep();
-  kept.fresh_iterations = fresh_iterations_;
+  kept.fewest_iterations = fewest_iterations_;
   kept.excess_iterations = excess_iterations_;
   return kept;
 }
 
 bool JointStep::Restore(const KeptTangent& kept) {
-  fresh_iterations_ = kept.fresh_iterations;
+  fewest_iterations_ = kept.fewest_iterations;
   excess_iterations_ = kept.excess_iterations;
   return system_->Restore(kept);
 }

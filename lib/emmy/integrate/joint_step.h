@@ -67,7 +67,7 @@ class JointStep {
   bool used_coupled_ = false;
   int last_iterations_ = 0;
   // See KeptTangent.
-  int64_t fresh_iterations_ = 0;
+  int64_t fewest_iterations_ = 0;
   int64_t excess_iterations_ = 0;
 };
 

@@ -221,7 +221,7 @@ void CodeFields(Coder& coder, CheckpointType& checkpoint) {
     coder.Numbers("factorised matrix", kept.matrix);
     coder.Numbers("factorised position", kept.positions);
     coder.Numbers("turn since factorisation", kept.turn);
-    coder.Whole("fewest iterations with the factor", kept.fresh_iterations);
+    coder.Whole("fewest iterations with the factor", kept.fewest_iterations);
     coder.Whole("iterations beyond those", kept.excess_iterations);
   }
   for (auto& error : checkpoint.extremes.max_error) {
