@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <limits>
 #include <vector>
 
@@ -71,6 +72,18 @@ TEST(StagnationMonitorTest, AFastSequenceNeedNotConfirmItsRounding) {
   EXPECT_FALSE(monitor.Update(1e-9, kFloor));
   EXPECT_FALSE(monitor.Update(1e-13, kFloor));
   EXPECT_TRUE(monitor.Update(2e-16, kFloor));
+}
+
+// A rate that was 1e-4 and 1e-5 is taken as 1e-4.
+TEST(StagnationMonitorTest, SaysWhatAMemberShouldHaveBeen) {
+  StagnationMonitor monitor(0x1p-10, /*explains_rounding=*/true);
+  (void)monitor.Update(1e-4, kFloor);
+  (void)monitor.Update(1e-8, kFloor);
+  EXPECT_TRUE(std::isinf(monitor.expected()));
+  (void)monitor.Update(1e-13, kFloor);
+  EXPECT_TRUE(std::isinf(monitor.expected()));
+  (void)monitor.Update(2e-16, kFloor);
+  EXPECT_NEAR(monitor.expected(), 1e-17, 1e-23);
 }
 
 // Nor is it explained where that was not asked for.

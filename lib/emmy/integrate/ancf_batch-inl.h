@@ -208,7 +208,11 @@ class AncfPackStep {
                      MeanStrain(e.strain.shear, 3)};
     e.stress = {Times(Load3(block_.impulse, lane_), e.mean_strain.normal),
                 Times(Load3(block_.impulse + 3, lane_), e.mean_strain.shear)};
-    const Pack33 inertial = TimesMoments(TransposedTimes(Dual(e.mean), change));
+    // The determinant's inverse is not waited for.
+    const Cofactors cofactors = CofactorsOf(e.mean);
+    const Pack33 inertial =
+        TimesMoments(Broadcast(1.0) / cofactors.determinant,
+                     TransposedTimes(cofactors.vectors, change));
     const Pack3& n = e.stress.normal;
     const Pack3& s = e.stress.shear;
     const Pack33 y = {inertial.a + Pack3{n.x, s.x, s.z},
@@ -273,7 +277,7 @@ class AncfPackStep {
     const Pack3 normal = {z.a.x, z.b.y, z.c.z};
     const Pack3 shear = {z.a.y + z.b.x, z.b.z + z.c.y, z.c.x + z.a.z};
     *increment = {e.turned,
-                  TurnedLow(e, start, change),
+                  TurnedLow(e, change),
                   change,
                   {NegMulAdd(half_step, normal, e.strain.normal),
                    NegMulAdd(half_step, shear, e.strain.shear)}};
@@ -285,22 +289,20 @@ class AncfPackStep {
   // What Δt w̄ has besides e.turned, for the rate increment `change` instead of
   // the `start` of the last correction, see docs/theory.md: to the last bit,
   // but for a rounding of ½ Δw where that is larger than the rate itself.
-  HWY_INLINE Pack33 TurnedLow(const Evaluation& e, const Pack33& start,
-                              const Pack33& change) const {
+  HWY_INLINE Pack33 TurnedLow(const Evaluation& e, const Pack33& change) const {
     const Pack step = Broadcast(step_.time_step);
-    const Pack half_step = Broadcast(0.5 * step_.time_step);
-    const Pack33 small =
-        MulAdd(Broadcast(0.5), start, Load33(block_.rates.compensation, lane_));
+    const Pack33 small = MulAdd(Broadcast(0.5), change,
+                                Load33(block_.rates.compensation, lane_));
     const Pack33 rounding =
         small - (e.mean_rates - Load33(block_.rates.value, lane_));
-    return NegMulAdd(half_step, start - change,
-                     MulAdd(step, rounding, ProductError(step, e.mean_rates)));
+    return MulAdd(step, rounding, ProductError(step, e.mean_rates));
   }
 
-  HWY_INLINE Pack33 TimesMoments(const Pack33& x) const {
-    return {Load(block_.moment[0] + lane_) * x.a,
-            Load(block_.moment[1] + lane_) * x.b,
-            Load(block_.moment[2] + lane_) * x.c};
+  // s x M
+  HWY_INLINE Pack33 TimesMoments(Pack s, const Pack33& x) const {
+    return {(s * Load(block_.moment[0] + lane_)) * x.a,
+            (s * Load(block_.moment[1] + lane_)) * x.b,
+            (s * Load(block_.moment[2] + lane_)) * x.c};
   }
 
   static HWY_INLINE Pack SquareSum(const Pack33& m) {

@@ -31,10 +31,11 @@ struct CompensatedLanes {
   Lanes compensation[kEntries];
 };
 
-// Accelerations of the last steps: (EXTRA-1).
-template <size_t kEntries>
+// Accelerations of the last steps: (EXTRA-1), with ∇⁰ up to the highest order
+// that is used; the difference after it only ranks orders.
+template <size_t kEntries, size_t kKept>
 struct ExtrapolationLanes {
-  static constexpr size_t kDifferences = 4;  // ∇⁰ … ∇³; ∇⁴ only ranks orders.
+  static constexpr size_t kDifferences = kKept;
   alignas(64) Lanes next[kEntries];
   Lanes difference[kDifferences][kEntries];
 };
@@ -59,7 +60,8 @@ struct AncfBlock {
   CompensatedLanes<9> gradients;
   CompensatedLanes<9> rates;
   CompensatedLanes<6> strain;
-  ExtrapolationLanes<9> acceleration;
+  // What higher orders predict better is lost in the first correction.
+  ExtrapolationLanes<9, 2> acceleration;
 
   // Constants of bodies and time step, c as in (EM-6).
   alignas(64) Lanes moment[3];  // Mⁱⁱ
@@ -86,7 +88,7 @@ struct ConventionalBlock {
   CentreLanes centre;
   CompensatedLanes<4> quaternion;
   CompensatedLanes<3> angular_velocity;
-  ExtrapolationLanes<3> acceleration;
+  ExtrapolationLanes<3, 4> acceleration;
 
   // aᵢ of (BATCH-4) as a pair; 2 max aᵢ².
   alignas(64) Lanes coupling[3];

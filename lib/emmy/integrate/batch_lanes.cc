@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 
 #include "emmy/base/compensated_sum.h"
 #include "emmy/base/double_double.h"
@@ -36,11 +37,11 @@ void Store(const CompensatedLanes<kEntries>& from, int lane,
   Gather(from.compensation, lane, to->compensation.data() + offset);
 }
 
-template <size_t kEntries>
+template <size_t kEntries, size_t kDifferences>
 void Load(const Extrapolation& from, Eigen::Index offset, int lane,
-          ExtrapolationLanes<kEntries>* to) {
+          ExtrapolationLanes<kEntries, kDifferences>* to) {
   Scatter(from.next.data() + offset, lane, to->next);
-  for (size_t j = 0; j < to->kDifferences; ++j) {
+  for (size_t j = 0; j < kDifferences; ++j) {
     for (size_t i = 0; i < kEntries; ++i) {
       to->difference[j][i][lane] = from.differences(
           offset + static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j));
@@ -48,11 +49,13 @@ void Load(const Extrapolation& from, Eigen::Index offset, int lane,
   }
 }
 
-template <size_t kEntries>
-void Store(const ExtrapolationLanes<kEntries>& from, int lane,
+// What a batch does not keep is zero.
+template <size_t kEntries, size_t kDifferences>
+void Store(const ExtrapolationLanes<kEntries, kDifferences>& from, int lane,
            Eigen::Index offset, Extrapolation* to) {
   Gather(from.next, lane, to->next.data() + offset);
-  for (size_t j = 0; j < from.kDifferences; ++j) {
+  to->differences.middleRows<static_cast<int>(kEntries)>(offset).setZero();
+  for (size_t j = 0; j < kDifferences; ++j) {
     for (size_t i = 0; i < kEntries; ++i) {
       to->differences(offset + static_cast<Eigen::Index>(i),
                       static_cast<Eigen::Index>(j)) =
@@ -90,9 +93,9 @@ void AdvanceCentre(const BatchStep& step, int lane, CentreLanes* centre) {
   Add(step.velocity_increment, lane, &centre->velocity);
 }
 
-template <size_t kEntries>
+template <size_t kEntries, size_t kDifferences>
 void Predict(const BatchStep& step, const double* change, int lane,
-             ExtrapolationLanes<kEntries>* kept) {
+             ExtrapolationLanes<kEntries, kDifferences>* kept) {
   constexpr auto kSize = static_cast<Eigen::Index>(kEntries);
   Extrapolation extrapolation;
   extrapolation.SetZero(kSize);
@@ -101,6 +104,8 @@ void Predict(const BatchStep& step, const double* change, int lane,
   extrapolation.Add(
       0, Eigen::Map<const VectorXd>(change, kSize) * step.inverse_time_step,
       &errors);
+  std::fill(errors.begin() + kDifferences, errors.end(),
+            std::numeric_limits<double>::infinity());
   extrapolation.Predict(0, kSize, Extrapolation::BestOrder(errors));
   Load(extrapolation, 0, lane, kept);
 }

@@ -153,11 +153,14 @@ HWY_INLINE Pack33 Load33(const Lanes* entries, int lane) {
   return {Load3(entries, lane), Load3(entries + 3, lane),
           Load3(entries + 6, lane)};
 }
-// The vectors dual to the columns: m⁻ᵀ.
-HWY_INLINE Pack33 Dual(const Pack33& m) {
+// The vectors dual to the columns, m⁻ᵀ, times the determinant.
+struct Cofactors {
+  Pack33 vectors;
+  Pack determinant;
+};
+HWY_INLINE Cofactors CofactorsOf(const Pack33& m) {
   const Pack3 bc = Cross(m.b, m.c);
-  const Pack inverse = Broadcast(1.0) / Dot(m.a, bc);
-  return {inverse * bc, inverse * Cross(m.c, m.a), inverse * Cross(m.a, m.b)};
+  return {{bc, Cross(m.c, m.a), Cross(m.a, m.b)}, Dot(m.a, bc)};
 }
 
 using PackSum = WithError<Pack>;
@@ -324,53 +327,52 @@ HWY_NOINLINE Flag Iterate(const Step& step, int lane, CentreLanes* centre,
   return Or(failed, active);
 }
 
-// Takes the accelerations of this step and predicts the next (EXTRA-1).
-template <bool kAll, size_t kVectors>
+// Takes the accelerations of this step and predicts the next (EXTRA-1), to an
+// order below the number of differences kept.
+template <bool kAll, size_t kVectors, size_t kDifferences>
 HWY_INLINE void Predict(const Pack3 (&acceleration)[kVectors],
                         const Writer<kAll>& writer, int lane,
-                        ExtrapolationLanes<3 * kVectors>* kept) {
-  // Sums of squares.
-  Pack error0 = Broadcast(0.0);
-  Pack error1 = error0;
-  Pack error2 = error0;
-  Pack error3 = error0;
+                        ExtrapolationLanes<3 * kVectors, kDifferences>* kept) {
+  Pack errors[kDifferences];  // Sums of squares, by order.
+  for (Pack& error : errors) error = Broadcast(0.0);
 #pragma GCC unroll 9
   for (size_t i = 0; i < 3 * kVectors; ++i) {
     const Pack3& vector = acceleration[i / 3];
-    const Pack value = i % 3 == 0 ? vector.x : i % 3 == 1 ? vector.y : vector.z;
-    double* const kept0 = kept->difference[0][i] + lane;
-    double* const kept1 = kept->difference[1][i] + lane;
-    double* const kept2 = kept->difference[2][i] + lane;
-    double* const kept3 = kept->difference[3][i] + lane;
-    const Pack d1 = value - Load(kept0);
-    const Pack d2 = d1 - Load(kept1);
-    const Pack d3 = d2 - Load(kept2);
-    const Pack d4 = d3 - Load(kept3);
-    writer.Write(value, kept0);
-    writer.Write(d1, kept1);
-    writer.Write(d2, kept2);
-    writer.Write(d3, kept3);
-    error0 = MulAdd(d1, d1, error0);
-    error1 = MulAdd(d2, d2, error1);
-    error2 = MulAdd(d3, d3, error2);
-    error3 = MulAdd(d4, d4, error3);
+    Pack difference = i % 3 == 0 ? vector.x : i % 3 == 1 ? vector.y : vector.z;
+#pragma GCC unroll 4
+    for (size_t j = 0; j < kDifferences; ++j) {
+      double* const kept_here = kept->difference[j][i] + lane;
+      const Pack next_difference = difference - Load(kept_here);
+      writer.Write(difference, kept_here);
+      errors[j] = MulAdd(next_difference, next_difference, errors[j]);
+      difference = next_difference;
+    }
   }
-  const Pack one = Broadcast(1.0);
-  const Pack best1 = Smaller(error0, error1);
-  const Flag third = error3 < Smaller(best1, error2);
-  const Flag second = Or(third, error2 < best1);
-  const Flag first = Or(second, error1 < error0);
-  const Pack use3 = OrZero(third, one);
-  const Pack use2 = OrZero(second, one);
-  const Pack use1 = OrZero(first, one);
+  // Whether the best order is this or above.
+  Flag used[kDifferences];
+  Pack best = errors[0];
+#pragma GCC unroll 4
+  for (size_t j = 1; j < kDifferences; ++j) {
+    used[j] = errors[j] < best;
+    best = Smaller(best, errors[j]);
+  }
+#pragma GCC unroll 4
+  for (size_t j = kDifferences - 2; j >= 1; --j) {
+    used[j] = Or(used[j], used[j + 1]);
+  }
+  Pack use[kDifferences];
+#pragma GCC unroll 4
+  for (size_t j = 1; j < kDifferences; ++j) {
+    use[j] = OrZero(used[j], Broadcast(1.0));
+  }
 #pragma GCC unroll 9
   for (size_t i = 0; i < 3 * kVectors; ++i) {
-    const Pack d0 = Load(kept->difference[0][i] + lane);
-    const Pack d1 = Load(kept->difference[1][i] + lane);
-    const Pack d2 = Load(kept->difference[2][i] + lane);
-    const Pack d3 = Load(kept->difference[3][i] + lane);
-    writer.Write(MulAdd(use1, d1, MulAdd(use2, d2, MulAdd(use3, d3, d0))),
-                 kept->next[i] + lane);
+    Pack next = Load(kept->difference[0][i] + lane);
+#pragma GCC unroll 4
+    for (size_t j = kDifferences - 1; j >= 1; --j) {
+      next = MulAdd(use[j], Load(kept->difference[j][i] + lane), next);
+    }
+    writer.Write(next, kept->next[i] + lane);
   }
 }
 

@@ -66,6 +66,9 @@ struct NodeState {
   alignas(32) Four strain_low{};
 };
 
+// Of a rest of one sign, (EM-5).
+constexpr double kNegligible = 0x1p-10;
+
 struct LinedIncrement {
   double body_position[12];
   double body_rate[12];
@@ -195,6 +198,7 @@ HWY_INLINE Pair ApplyInverse(const Constants& constants, const Pair& y) {
 // What the lines add to the tangent at one point: (LANE-5).
 struct LineTangent {
   Vectors along;         // ēᵏ·d̄, over the lines.
+  Lanes slope;           // t'
   Lanes c;               // ½ Δt² t'
   Pair response[4];      // h of each line.
   double inverse[4][4];  // (1 + C ĝᵀh)⁻¹
@@ -209,8 +213,11 @@ HWY_INLINE Lanes LineProduct(const Constants& constants, const Vectors& along,
 }
 
 HWY_INLINE void MakeTangent(const Constants& constants, const Vectors& along,
-                            const Lanes& c, LineTangent* tangent) {
+                            const Lanes& slope, LineTangent* tangent) {
+  const double dt = constants.time_step;
+  const Lanes c = Lanes::Set(0.5 * dt * dt) * slope;
   tangent->along = along;
+  tangent->slope = slope;
   tangent->c = c;
   alignas(32) double a[3][4];
   along.x.Store(a[0]);
@@ -241,6 +248,16 @@ HWY_INLINE double Sum(const Lanes& a) {
   return (lanes[0] + lanes[1]) + (lanes[2] + lanes[3]);
 }
 
+// Sizes in the residual, of the body's vectors and of the nodes, and their
+// norm with weights: how a law adds them.
+struct Sizes {
+  Lanes body, node;
+};
+HWY_INLINE double SquareOf(const Sizes& size, const Sizes& weight) {
+  return Sum(size.body * size.body * weight.body +
+             size.node * size.node * weight.node);
+}
+
 BodyStepResult SolveLined(const Constants& constants,
                           const BodyStartNumbers& body, const NodeState& nodes,
                           LinedIncrement* increment) {
@@ -269,7 +286,7 @@ BodyStepResult SolveLined(const Constants& constants,
       node_weight * x_low + Combine(constants.vector_weight, SpreadOf(e_low));
 
   BodyStepResult result;
-  StagnationMonitor rate_monitor;
+  StagnationMonitor rate_monitor(kNegligible, /*explains_rounding=*/true);
   StagnationMonitor force_monitor;
   StagnationMonitor moment_monitor;
   StagnationMonitor work_monitor;
@@ -344,11 +361,11 @@ BodyStepResult SolveLined(const Constants& constants,
         {Dot(residual, dual1), Dot(residual, dual2), Dot(residual, dual3)},
         {Dot(node_residual, dual1), Dot(node_residual, dual2),
          Dot(node_residual, dual3)}};
+    const Lanes slope = Lanes::Load(derivative);
     // Once more where the first start was far off.
     if (i <= 2) {
       MakeTangent(constants, {Dot(d, dual1), Dot(d, dual2), Dot(d, dual3)},
-                  Lanes::Set(0.5 * dt * dt) * Lanes::Load(derivative),
-                  &tangent);
+                  slope, &tangent);
     }
     Pair z = ApplyInverse(constants, y);
     alignas(32) double s[4];
@@ -378,39 +395,84 @@ BodyStepResult SolveLined(const Constants& constants,
     if (constants.options.tolerance.has_value()) {
       done = result.correction <= *constants.options.tolerance * rate;
     } else {
-      // As in CoupledStep::RoundingFloors.
+      // As in CoupledStep::RoundingFloors; but what the laws would find next is
+      // known, (LANE-6), and need not be seen.
       const double rate_floor = 4.0 * kUnitRoundoff * rate;
       const bool rate_done = rate_monitor.Update(result.correction, rate_floor);
-      constexpr double kNear = 1e5;
+      constexpr double kNear = 16.0;
       if (result.correction <= kNear * rate_floor) {
-        const Lanes size =
-            MaxAbs(inertia) + (MaxAbs(force) + MaxAbs(pull_on_body));
-        const Lanes node_size = MaxAbs(node_inertia) + MaxAbs(pull_on_node);
-        const Lanes square = size * size;
-        const Lanes node_square = node_size * node_size;
-        const auto floor_of = [&](const Lanes& a, const Lanes& b) {
-          return kUnitRoundoff * std::sqrt(Sum(square * a + node_square * b));
-        };
         const Lanes one = Lanes::Set(1.0);
-        const Lanes centre = Lanes::First(1.0);
-        const double net =
-            std::max({std::abs(Sum(centre * residual.x + node_residual.x)),
-                      std::abs(Sum(centre * residual.y + node_residual.y)),
-                      std::abs(Sum(centre * residual.z + node_residual.z))});
-        const Vectors moments = Cross(e, residual) + Cross(x, node_residual);
-        const double moment =
-            std::max({std::abs(Sum(moments.x)), std::abs(Sum(moments.y)),
-                      std::abs(Sum(moments.z))});
-        const double work = std::abs(
-            Sum(Dot(mean_w, residual) + Dot(node_mean_w, node_residual)));
-        const bool force_done = force_monitor.Update(net, floor_of(one, one));
-        const bool moment_done =
-            moment_monitor.Update(moment, floor_of(Dot(e, e), Dot(x, x)));
-        const bool work_done = work_monitor.Update(
-            work, floor_of(Dot(mean_w, mean_w), Dot(node_mean_w, node_mean_w)));
-        if (rate_done) ++settled;
-        done = rate_done && ((force_done && moment_done && work_done) ||
-                             settled > kStagnationPatience);
+        const Sizes ones = {one, one};
+        const Sizes arms = {Dot(e, e), Dot(x, x)};
+        const Sizes rates_square = {Dot(mean_w, mean_w),
+                                    Dot(node_mean_w, node_mean_w)};
+        const Lanes inertia_size = MaxAbs(inertia);
+        const Lanes node_inertia_size = MaxAbs(node_inertia);
+        const Sizes size = {
+            inertia_size + (MaxAbs(force) + MaxAbs(pull_on_body)),
+            node_inertia_size + MaxAbs(pull_on_node)};
+        const double force_size = SquareOf(size, ones);
+        const double moment_size = SquareOf(size, arms);
+        const double work_size = SquareOf(size, rates_square);
+
+        if (rate_done && Largest(Abs(slope - tangent.slope)) == 0.0) {
+          const Lanes shear = Abs(Dot(e, e_next));
+          const Lanes metric = Lanes::Set(Largest(
+              WithoutFirst(Abs(arms.body - one) + (shear + Previous(shear)))));
+          const Lanes moved =
+              Lanes::Set(std::abs(0.25 * dt) * result.correction);
+          const Lanes end_shear =
+              Abs(shear_stress) + Abs(At(constants.shear) * half_shear);
+          const Lanes end_force =
+              Abs(step) * ((Abs(stretch_stress) +
+                            Abs(At(constants.stretch) * half_stretch)) +
+                           (end_shear + Previous(end_shear)));
+          const Vectors end_pull =
+              (Abs(step) * (Abs(Lanes::Load(tension)) + Abs(slope * ds))) * d;
+          const Spread spread = SpreadOf(correction);
+          const Sizes left = {
+              moved * Max(inertia_size,
+                          end_force + MaxAbs(CombineLines(constants.line_weight,
+                                                          end_pull, count))) +
+                  metric * MaxAbs(Combine(constants.body_mass, spread) +
+                                  CombineLines(constants.node_column,
+                                               node_correction, count)),
+              moved * Max(node_inertia_size, MaxAbs(node_weight * end_pull)) +
+                  metric * MaxAbs(At(constants.node_mass) * node_correction +
+                                  Combine(constants.body_column, spread))};
+          // What is rounding in it does not add up.
+          const double share =
+              std::min(1.0, rate_monitor.expected() / result.correction);
+          const double scale = share / (kNegligible * kUnitRoundoff);
+          const double limit = scale * scale;
+          // Of what moves ē the arm is one.
+          const Sizes left_arms = {Max(one, arms.body), Max(one, arms.node)};
+          done = limit * SquareOf(left, ones) <= force_size &&
+                 limit * SquareOf(left, left_arms) <= moment_size &&
+                 limit * SquareOf(left, rates_square) <= work_size;
+        }
+        if (!done) {
+          const Lanes centre = Lanes::First(1.0);
+          const double net =
+              std::max({std::abs(Sum(centre * residual.x + node_residual.x)),
+                        std::abs(Sum(centre * residual.y + node_residual.y)),
+                        std::abs(Sum(centre * residual.z + node_residual.z))});
+          const Vectors moments = Cross(e, residual) + Cross(x, node_residual);
+          const double moment =
+              std::max({std::abs(Sum(moments.x)), std::abs(Sum(moments.y)),
+                        std::abs(Sum(moments.z))});
+          const double work = std::abs(
+              Sum(Dot(mean_w, residual) + Dot(node_mean_w, node_residual)));
+          const bool force_done =
+              force_monitor.Update(net, kUnitRoundoff * std::sqrt(force_size));
+          const bool moment_done = moment_monitor.Update(
+              moment, kUnitRoundoff * std::sqrt(moment_size));
+          const bool work_done =
+              work_monitor.Update(work, kUnitRoundoff * std::sqrt(work_size));
+          if (rate_done) ++settled;
+          done = rate_done && ((force_done && moment_done && work_done) ||
+                               settled > kStagnationPatience);
+        }
       }
     }
     if (done) {

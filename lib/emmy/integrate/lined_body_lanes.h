@@ -10,6 +10,8 @@
 // computed once, and a line adds c ĝ ĝᵀ, c = ½ Δt² t', ĝ = a ⊗ (ēᵏ·d̄) for its
 // weights a, which the identity of Woodbury solves with one number a line:
 //   x = z − Σ h μ,  z = B y,  h = B ĝ,  (c⁻¹ + ĝᵀ h) μ = ĝᵀ z         (LANE-5)
+// Moment and work are not seen to vanish where a bound says so:      (LANE-6)
+// five iterations a step of the paper's box and truss instead of six or seven.
 // The tension's own stiffness is left out, so that a line whose tension moves
 // its node far in a step is not solved; CoupledStep does that.
 

@@ -84,6 +84,7 @@ class StagnationMonitor {
     const bool vanished = explains_rounding_ &&
                           correction <= kRounding * floor && rate_ < kRatio &&
                           previous_ * rate_ * rate_ <= negligible_ * floor;
+    expected_ = previous_ * rate_;
     // The first member has no ratio, and nothing vanishes by it.
     previous_ratio_ = std::isinf(previous_) ? previous_ : ratio;
     previous_ = correction;
@@ -93,6 +94,10 @@ class StagnationMonitor {
     return stagnant_;
   }
 
+  // What the last member should have been by the members before it: the rest of
+  // it is rounding. Infinite before the fourth member.
+  double expected() const { return expected_; }
+
  private:
   double negligible_;
   bool explains_rounding_;
@@ -100,6 +105,7 @@ class StagnationMonitor {
   double previous_ = std::numeric_limits<double>::infinity();
   double previous_ratio_ = std::numeric_limits<double>::infinity();
   double rate_ = std::numeric_limits<double>::infinity();  // The slower of two.
+  double expected_ = std::numeric_limits<double>::infinity();
 };
 
 }  // namespace emmy
