@@ -91,6 +91,16 @@ TEST(TimingReportTest, SaysWhetherARatioMeetsItsTarget) {
   EXPECT_THAT(report(200.0), HasSubstr("| 5 | <= 3 | **missed** |"));
 }
 
+// 904 ms for all boxes.
+TEST(TimingReportTest, APublishedTimeIsDividedByWhereThereIsNoOther) {
+  const auto report = [](double time) {
+    return TimingReport(Read(
+        FileWith("published.json", Row("chain/long/threads:1", time, "ms"))));
+  };
+  EXPECT_THAT(report(850.0), HasSubstr("| 0.94 | <= 1 | met |"));
+  EXPECT_THAT(report(950.0), HasSubstr("| 1.05 | <= 1 | **missed** |"));
+}
+
 TEST(TimingReportTest, EveryTargetSaysWhereItComesFrom) {
   const std::string text = TimingReport(TimingRun());
   for (const Ratio& ratio : Ratios()) {

@@ -31,13 +31,15 @@ std::string RatioTable(const TimingRun& run, const std::vector<Ratio>& ratios) {
   for (const Ratio& ratio : ratios) {
     const Timing* numerator = run.Find(ratio.numerator);
     const Timing* denominator = run.Find(ratio.denominator);
+    const double divisor =
+        denominator != nullptr ? denominator->median : ratio.published;
     const char* const sign = ratio.at_least ? ">=" : "<=";
-    if (numerator == nullptr || denominator == nullptr) {
+    if (numerator == nullptr || divisor == 0.0) {
       absl::StrAppendFormat(&text, "| %s | not measured | %s %g | | %s |\n",
                             ratio.sentence, sign, ratio.target, ratio.basis);
       continue;
     }
-    const double value = numerator->median / denominator->median;
+    const double value = numerator->median / divisor;
     const bool met =
         ratio.at_least ? value >= ratio.target : value <= ratio.target;
     absl::StrAppendFormat(&text, "| %s | %.3g | %s %g | %s | %s |\n",
@@ -155,9 +157,11 @@ const std::vector<Ratio>& Ratios() {
       {"net 300 x 300: one thread over two", "net/large/side:300/threads:1",
        "net/large/side:300/threads:2", 1.4, true,
        "set: four fifths of the work shared, the rest done by one"},
-      {"chain of 1,076,748 boxes over one of 1000", "chain/long/threads:1",
-       "chain/boxes:1000", 1850.0, false,
-       "set: 1077 times the boxes, 0.84 over 0.49 us a box"},
+      {"chain of 1,076,748 boxes over 0.84 us a box", "chain/long/threads:1",
+       "", 1.0, false,
+       "published for a dissipative solver of one iteration, on its authors' "
+       "machine (M-ABD, arXiv 2603.08079)",
+       840.0 * 1076748.0},
       {"chain of 1,076,748 boxes, one thread over two", "chain/long/threads:1",
        "chain/long/threads:2", 1.6, true,
        "set: two; a fifth less for what one thread does alone"},

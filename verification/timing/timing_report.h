@@ -10,9 +10,9 @@
 
 namespace emmy::verification {
 
-// A time over another of the same run, and what it should be: at most, or at
-// least, the target. `basis` says where that comes from: "set" is what the
-// project has set itself, with what to read it by.
+// A time over another of the same run, or over a published one, and what it
+// should be: at most, or at least, the target. `basis` says where that comes
+// from: "set" is what the project has set itself, with what to read it by.
 struct Ratio {
   std::string sentence;
   std::string numerator;    // Names of benchmarks.
@@ -20,6 +20,7 @@ struct Ratio {
   double target = 0.0;
   bool at_least = false;  // The ratio should be that large, not that small.
   std::string basis;
+  double published = 0.0;  // [ns] In place of an empty denominator.
 };
 
 const std::vector<Ratio>& Ratios();
