@@ -7,8 +7,6 @@
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "emmy/integrate/batch_kernels.cc"
-// Vectors of a length unknown to the compiler cannot be members.
-#define HWY_DISABLED_TARGETS (HWY_SVE | HWY_SVE2 | HWY_RVV)
 #include "hwy/foreach_target.h"  // IWYU pragma: keep
 //
 #include "emmy/integrate/ancf_batch-inl.h"
