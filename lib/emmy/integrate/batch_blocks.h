@@ -33,9 +33,8 @@ struct CompensatedLanes {
 
 // Accelerations of the last steps: (EXTRA-1), with ∇⁰ up to the highest order
 // that is used; the difference after it only ranks orders.
-template <size_t kEntries, size_t kKept>
+template <size_t kEntries, size_t kDifferences>
 struct ExtrapolationLanes {
-  static constexpr size_t kDifferences = kKept;
   alignas(64) Lanes next[kEntries];
   Lanes difference[kDifferences][kEntries];
 };

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <limits>
 
 #include "emmy/base/compensated_sum.h"
 #include "emmy/base/double_double.h"
@@ -93,6 +92,8 @@ void AdvanceCentre(const BatchStep& step, int lane, CentreLanes* centre) {
   Add(step.velocity_increment, lane, &centre->velocity);
 }
 
+// Orders that are not kept are not taken: with differences of zero they would
+// have missed by as much as the highest that is, which comes first.
 template <size_t kEntries, size_t kDifferences>
 void Predict(const BatchStep& step, const double* change, int lane,
              ExtrapolationLanes<kEntries, kDifferences>* kept) {
@@ -104,8 +105,6 @@ void Predict(const BatchStep& step, const double* change, int lane,
   extrapolation.Add(
       0, Eigen::Map<const VectorXd>(change, kSize) * step.inverse_time_step,
       &errors);
-  std::fill(errors.begin() + kDifferences, errors.end(),
-            std::numeric_limits<double>::infinity());
   extrapolation.Predict(0, kSize, Extrapolation::BestOrder(errors));
   Load(extrapolation, 0, lane, kept);
 }

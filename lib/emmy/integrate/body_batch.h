@@ -69,7 +69,9 @@ class BodyBatch {
   BatchReport Step(int64_t num_steps);
 
   // Writes the state of all bodies, time and step number, of the state that
-  // was loaded or one of the same model.
+  // was loaded or one of the same model. Differences by which a step's start is
+  // predicted (EXTRA-1) are zero where a batch keeps none, from order two on
+  // for ANCF bodies.
   void Store(State* state) const;
 
  private:

@@ -252,7 +252,7 @@ BodyStepResult CoupledStep::Iterate(bool exact) {
   BodyStepResult result;
   // What the laws forbid to remain is judged apart from the corrections: the
   // net force, the net moment and the work of the residual (EM-7).
-  StagnationMonitor rate_monitor(0x1p-10, /*explains_rounding=*/true);
+  StagnationMonitor rate_monitor(kNegligibleRest, /*explains_rounding=*/true);
   StagnationMonitor force_monitor;
   StagnationMonitor moment_monitor;
   StagnationMonitor work_monitor;

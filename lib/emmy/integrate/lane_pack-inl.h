@@ -128,10 +128,6 @@ HWY_INLINE Pack33 operator-(const Pack33& m, const Pack33& n) {
 HWY_INLINE Pack33 MulAdd(Pack s, const Pack33& m, const Pack33& n) {
   return {MulAdd(s, m.a, n.a), MulAdd(s, m.b, n.b), MulAdd(s, m.c, n.c)};
 }
-HWY_INLINE Pack33 NegMulAdd(Pack s, const Pack33& m, const Pack33& n) {
-  return {NegMulAdd(s, m.a, n.a), NegMulAdd(s, m.b, n.b),
-          NegMulAdd(s, m.c, n.c)};
-}
 HWY_INLINE Pack33 operator*(Pack s, const Pack33& m) {
   return {s * m.a, s * m.b, s * m.c};
 }
@@ -333,6 +329,7 @@ template <bool kAll, size_t kVectors, size_t kDifferences>
 HWY_INLINE void Predict(const Pack3 (&acceleration)[kVectors],
                         const Writer<kAll>& writer, int lane,
                         ExtrapolationLanes<3 * kVectors, kDifferences>* kept) {
+  static_assert(kDifferences >= 2);
   Pack errors[kDifferences];  // Sums of squares, by order.
   for (Pack& error : errors) error = Broadcast(0.0);
 #pragma GCC unroll 9

@@ -38,6 +38,10 @@ struct LinedBodyLanes::Constants {
   alignas(32) Four node_weight{};
   alignas(32) std::array<Four, 4> vector_weight{};
   alignas(32) std::array<Four, 4> line_weight{};
+  // |a| Σ |a| of a line's weights: of its node, over the lines; of the vectors,
+  // a column a line.
+  alignas(32) Four node_share{};
+  alignas(32) std::array<Four, 4> line_share{};
   // Δt times gravity's force, a row a component.
   alignas(32) std::array<Four, 3> body_impulse{};
   alignas(32) std::array<Four, 3> node_impulse{};
@@ -66,8 +70,7 @@ struct NodeState {
   alignas(32) Four strain_low{};
 };
 
-// Of a rest of one sign, (EM-5).
-constexpr double kNegligible = 0x1p-10;
+constexpr double kRootThree = 1.7320508075688772;
 
 struct LinedIncrement {
   double body_position[12];
@@ -159,6 +162,17 @@ HWY_INLINE Vectors CombineLines(const std::array<Four, 4>& columns,
   if (count > 2) sum = sum + At(columns[2]) * Broadcast<2>(a);
   if (count > 3) sum = sum + At(columns[3]) * Broadcast<3>(a);
   return sum;
+}
+
+// Σ columns[l] times number l of the lines; of those that are not there, zero.
+HWY_INLINE Lanes CombineShares(const std::array<Four, 4>& columns,
+                               const Lanes& numbers) {
+  alignas(32) double of[4];
+  numbers.Store(of);
+  return (At(columns[0]) * Lanes::Set(of[0]) +
+          At(columns[1]) * Lanes::Set(of[1])) +
+         (At(columns[2]) * Lanes::Set(of[2]) +
+          At(columns[3]) * Lanes::Set(of[3]));
 }
 
 // Components along three directions: of the body's vectors and of the nodes.
@@ -283,14 +297,13 @@ BodyStepResult SolveLined(const Constants& constants,
       node_weight * x_low + Combine(constants.vector_weight, SpreadOf(e_low));
 
   BodyStepResult result;
-  StagnationMonitor rate_monitor(kNegligible, /*explains_rounding=*/true);
+  StagnationMonitor rate_monitor(kNegligibleRest, /*explains_rounding=*/true);
   StagnationMonitor force_monitor;
   StagnationMonitor moment_monitor;
   StagnationMonitor work_monitor;
   LineTangent tangent;
   Vectors half_dw = half_step * LoadVectors(body.next);
   Vectors node_half_dw = half_step * At(nodes.acceleration);
-  int settled = 0;
   for (int i = 1;; ++i) {
     // (EM-1)
     const Vectors mean_w = w0 + (w_low + half_dw);
@@ -342,10 +355,10 @@ BodyStepResult SolveLined(const Constants& constants,
     const Vectors pull_on_body =
         CombineLines(constants.line_weight, pull, count);
     const Vectors pull_on_node = node_weight * pull;
-    const Vectors residual =
-        ((inertia - At(constants.body_impulse)) + pull_on_body) + force;
-    const Vectors node_residual =
-        (node_inertia - At(constants.node_impulse)) + pull_on_node;
+    const Vectors impulse = inertia - At(constants.body_impulse);
+    const Vectors node_impulse = node_inertia - At(constants.node_impulse);
+    const Vectors residual = (impulse + pull_on_body) + force;
+    const Vectors node_residual = node_impulse + pull_on_node;
 
     // Along the dual vectors.
     const Vectors normal = Cross(e_next, e_previous);
@@ -392,61 +405,79 @@ BodyStepResult SolveLined(const Constants& constants,
     if (constants.options.tolerance.has_value()) {
       done = result.correction <= *constants.options.tolerance * rate;
     } else {
-      // As in CoupledStep::RoundingFloors; but what the laws would find next is
-      // known, (LANE-6), and need not be seen.
+      // As in CoupledStep::RoundingFloors; but where lines are as stiff as the
+      // tangent says, what the laws would find next is known (LANE-6), and
+      // need not be seen: they are looked at late.
       const double rate_floor = 4.0 * kUnitRoundoff * rate;
       const bool rate_done = rate_monitor.Update(result.correction, rate_floor);
-      constexpr double kNear = 16.0;
-      if (result.correction <= kNear * rate_floor) {
+      const bool is_tangent = Largest(Abs(slope - tangent.slope)) == 0.0;
+      const double near = is_tangent ? 16.0 : 1e5;
+      if (rate_done || result.correction <= near * rate_floor) {
         const Lanes one = Lanes::Set(1.0);
         const Sizes ones = {one, one};
         const Sizes arms = {Dot(e, e), Dot(x, x)};
         const Sizes rates_square = {Dot(mean_w, mean_w),
                                     Dot(node_mean_w, node_mean_w)};
-        const Lanes inertia_size = MaxAbs(inertia);
-        const Lanes node_inertia_size = MaxAbs(node_inertia);
         const Sizes size = {
-            inertia_size + (MaxAbs(force) + MaxAbs(pull_on_body)),
-            node_inertia_size + MaxAbs(pull_on_node)};
+            MaxAbs(inertia) + (MaxAbs(force) + MaxAbs(pull_on_body)),
+            MaxAbs(node_inertia) + MaxAbs(pull_on_node)};
         const double force_size = SquareOf(size, ones);
         const double moment_size = SquareOf(size, arms);
         const double work_size = SquareOf(size, rates_square);
 
-        if (rate_done && Largest(Abs(slope - tangent.slope)) == 0.0) {
+        if (rate_done && is_tangent) {
+          // What K₀ has not exactly: the metric, and directions of lines.
+          const double delta =
+              std::sqrt(Largest(Max(Dot(correction, correction),
+                                    Dot(node_correction, node_correction))));
           const Lanes shear = Abs(Dot(e, e_next));
           const Lanes metric = Lanes::Set(Largest(
               WithoutFirst(Abs(arms.body - one) + (shear + Previous(shear)))));
-          const Lanes moved =
-              Lanes::Set(std::abs(0.25 * dt) * result.correction);
+          const Vectors along = {Dot(d, dual1), Dot(d, dual2), Dot(d, dual3)};
+          const Lanes turned =
+              Lanes::Set(3.0 * delta) * tangent.c *
+              (MaxAbs(tangent.along) * MaxAbs(along - tangent.along));
+          // With twice the mass, for the norm is √3 of the largest component.
+          const Spread spread = SpreadOf(correction);
+          const Sizes lost = {
+              metric * MaxAbs(Combine(constants.body_mass, spread) +
+                              CombineLines(constants.node_column,
+                                           node_correction, count)) +
+                  CombineShares(constants.line_share, turned),
+              metric * MaxAbs(At(constants.node_mass) * node_correction +
+                              Combine(constants.body_column, spread)) +
+                  At(constants.node_share) * turned};
+          // What moves with ē.
+          const Lanes moved = Lanes::Set(0.25 * std::abs(dt) * delta);
+          const Lanes arm = Lanes::Set(kRootThree) * moved;
+          const Sizes moment_left = {lost.body + arm * MaxAbs(impulse),
+                                     lost.node + arm * MaxAbs(node_impulse)};
+          // Stresses and tensions at the end of the step.
+          const Lanes step_size = Abs(step);
           const Lanes end_shear =
               Abs(shear_stress) + Abs(At(constants.shear) * half_shear);
-          const Lanes end_force =
-              Abs(step) * ((Abs(stretch_stress) +
+          const Lanes end_stress =
+              step_size * ((Abs(stretch_stress) +
                             Abs(At(constants.stretch) * half_stretch)) +
                            (end_shear + Previous(end_shear)));
-          const Vectors end_pull =
-              (Abs(step) * (Abs(Lanes::Load(tension)) + Abs(slope * ds))) * d;
-          const Spread spread = SpreadOf(correction);
-          const Sizes left = {
-              moved * Max(inertia_size,
-                          end_force + MaxAbs(CombineLines(constants.line_weight,
-                                                          end_pull, count))) +
-                  metric * MaxAbs(Combine(constants.body_mass, spread) +
-                                  CombineLines(constants.node_column,
-                                               node_correction, count)),
-              moved * Max(node_inertia_size, MaxAbs(node_weight * end_pull)) +
-                  metric * MaxAbs(At(constants.node_mass) * node_correction +
-                                  Combine(constants.body_column, spread))};
-          // What is rounding in it does not add up.
+          const Lanes end_tension =
+              step_size * (Abs(Lanes::Load(tension)) + Abs(slope * ds));
+          const Sizes work_left = {
+              lost.body +
+                  moved * (end_stress +
+                           CombineShares(constants.line_share, end_tension)),
+              lost.node + moved * (At(constants.node_share) * end_tension)};
+          // All of it has to be below a floor, and what is not rounding, which
+          // adds up, far below. A sum of n is at most √n times its norm.
           const double share =
               std::min(1.0, rate_monitor.expected() / result.correction);
-          const double scale = share / (kNegligible * kUnitRoundoff);
-          const double limit = scale * scale;
-          // Of what moves ē the arm is one.
-          const Sizes left_arms = {Max(one, arms.body), Max(one, arms.node)};
-          done = limit * SquareOf(left, ones) <= force_size &&
-                 limit * SquareOf(left, left_arms) <= moment_size &&
-                 limit * SquareOf(left, rates_square) <= work_size;
+          const double scale =
+              std::max(1.0, share / kNegligibleRest) / kUnitRoundoff;
+          const double limit = (4.0 + count) * scale * scale;
+          const Sizes moment_arms = {Max(one, arms.body), Max(one, arms.node)};
+          done = limit * SquareOf(lost, ones) <= force_size &&
+                 limit * SquareOf(moment_left, moment_arms) <= moment_size &&
+                 limit * SquareOf(work_left, rates_square) <= work_size;
         }
         if (!done) {
           const Lanes centre = Lanes::First(1.0);
@@ -466,9 +497,7 @@ BodyStepResult SolveLined(const Constants& constants,
               moment, kUnitRoundoff * std::sqrt(moment_size));
           const bool work_done =
               work_monitor.Update(work, kUnitRoundoff * std::sqrt(work_size));
-          if (rate_done) ++settled;
-          done = rate_done && ((force_done && moment_done && work_done) ||
-                               settled > kStagnationPatience);
+          done = rate_done && force_done && moment_done && work_done;
         }
       }
     }
@@ -608,6 +637,14 @@ LinedBodyLanes::LinedBodyLanes(const Structure& structure, double time_step,
         c->vector_weight[v][l] = term.weight;
         c->line_weight[l][v] = term.weight;
       }
+    }
+  }
+  for (size_t l = 0; l < lines; ++l) {
+    double sum = std::abs(c->node_weight[l]);
+    for (const double weight : c->line_weight[l]) sum += std::abs(weight);
+    c->node_share[l] = std::abs(c->node_weight[l]) * sum;
+    for (size_t v = 0; v < 4; ++v) {
+      c->line_share[l][v] = std::abs(c->line_weight[l][v]) * sum;
     }
   }
   // Of the body's vectors, then of the nodes by lane.

@@ -2,16 +2,17 @@
 // a node of its own, in SIMD lanes: the paper's box and truss.
 //
 // The equations are those of CoupledStep, (EM-1), (EM-9) without joints, and
-// its rules for round-off; the lanes are those of ancf_body_lanes.h, with the
-// centre of mass before the three vectors, and four more for the nodes and
-// lines. Along the mean dual vectors ēᵏ the tangent without lines is one
-// constant,
+// its rules for round-off but for that of the laws; the lanes are those of
+// ancf_body_lanes.h, with the centre of mass before the three vectors, and four
+// more for the nodes and lines. Along the mean dual vectors ēᵏ the tangent
+// without lines is one constant,
 //   K₀ = M ⊗ 1 + ¼ Δt² Σ b g gᵀ,  B = K₀⁻¹,                         (LANE-4)
 // computed once, and a line adds c ĝ ĝᵀ, c = ½ Δt² t', ĝ = a ⊗ (ēᵏ·d̄) for its
 // weights a, which the identity of Woodbury solves with one number a line:
 //   x = z − Σ h μ,  z = B y,  h = B ĝ,  (c⁻¹ + ĝᵀ h) μ = ĝᵀ z         (LANE-5)
-// Moment and work are not seen to vanish where a bound says so:      (LANE-6)
-// five iterations a step of the paper's box and truss instead of six or seven.
+// Force, moment and work are not seen to vanish where the last correction says
+// that they do (LANE-6): five iterations a step of the paper's box and truss
+// instead of six or seven.
 // The tension's own stiffness is left out, so that a line whose tension moves
 // its node far in a step is not solved; CoupledStep does that.
 

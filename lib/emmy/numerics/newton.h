@@ -43,6 +43,11 @@ struct [[nodiscard]] StepReport {
 // their rounding, whatever its estimate says.
 inline constexpr int kStagnationPatience = 20;
 
+// How much of a floor may be left with the same sign in every step: that adds
+// up like the number of steps, rounding like its root, so that it stays below
+// for a million.
+inline constexpr double kNegligibleRest = 0x1p-10;
+
 // Judges when one sequence of corrections has reached round-off.     (EM-5)
 //
 // `floor` is the size that rounding alone can give a correction, from the
@@ -52,9 +57,7 @@ inline constexpr int kStagnationPatience = 20;
 //
 // Nor is an iteration done that could only confirm it: if the sequence shrinks
 // so fast that its next member would be `negligible` against the floor, that
-// member is lost in rounding. What it would have removed has the same sign in
-// every step, and adds up like the number of steps where rounding adds up like
-// its root: 2⁻¹⁰ leaves it below rounding for a million steps. How fast it
+// member is lost in rounding. How fast it
 // shrinks is the slower of the last two ratios: one alone may be that of a part
 // which the first correction removes, with a slower part hidden below it.
 //
@@ -63,10 +66,10 @@ inline constexpr int kStagnationPatience = 20;
 // have been their last times their rate, and the next that times the rate
 // again. A part that was hidden below them all the time and shrinks slowly is
 // missed, so that what a law forbids to remain is not judged like this, but
-// seen.
+// seen, or bounded by the correction itself (LANE-6).
 class StagnationMonitor {
  public:
-  explicit StagnationMonitor(double negligible = 0x1p-10,
+  explicit StagnationMonitor(double negligible = kNegligibleRest,
                              bool explains_rounding = false)
       : negligible_(negligible), explains_rounding_(explains_rounding) {}
 
