@@ -157,6 +157,7 @@ INSTANTIATE_TEST_SUITE_P(
         Kind{"LoadedTree",
              [] { return Loaded(verification::BoxTree(7).model); }, false},
         Kind{"Grid", [] { return verification::BoxGrid(5).model; }},
+        Kind{"Ring", [] { return verification::BoxRing(7).model; }},
         Kind{"HeldGrid", [] { return Held(verification::BoxGrid(4).model); },
              false},
         Kind{"HeldTree", [] { return Held(verification::BoxTree(11).model); },

@@ -4,6 +4,8 @@
 
 #include <cmath>
 
+#include "emmy/base/compensated_sum.h"
+#include "emmy/base/types.h"
 #include "verification/benchmarks/checked_run.h"
 #include "verification/benchmarks/runge_kutta_body.h"
 #include "verification/runs/paper_box.h"
@@ -72,6 +74,46 @@ void ConventionalTruss(benchmark::State& state) {
   run.TimeSteps(state, kKept);
 }
 BENCHMARK(ConventionalTruss)->Name("box_and_truss/conventional");
+
+// What iterating to round-off costs: the same to a tolerance. Energy then errs
+// by the work of what is left (EM-7).
+void AncfToTolerance(benchmark::State& state) {
+  IntegratorOptions options = Options();
+  options.tolerance = 1e-6;
+  CheckedRun run(PaperBoxAncf(kPenalty), options);
+  run.TimeSteps(state, /*bound=*/1e-2);
+}
+BENCHMARK(AncfToTolerance)->Name("one_body/ancf_to_tolerance");
+
+// What compensation costs: the 30 numbers of an ANCF body are advanced, by
+// (SUM-2) and by additions.
+constexpr Eigen::Index kNumbers = 30;
+
+void CompensatedSums(benchmark::State& state) {
+  CompensatedVector sums;
+  sums.value = VectorXd::LinSpaced(kNumbers, 1.0, 2.0);
+  sums.compensation = VectorXd::Zero(kNumbers);
+  const VectorXd increment = VectorXd::LinSpaced(kNumbers, 1e-3, 2e-3);
+  for (auto _ : state) {
+    for (Eigen::Index i = 0; i < kNumbers; ++i) {
+      AddCompensated(increment(i), sums.value(i), sums.compensation(i));
+    }
+    benchmark::DoNotOptimize(sums.value.data());
+    benchmark::ClobberMemory();
+  }
+}
+BENCHMARK(CompensatedSums)->Name("sums/compensated");
+
+void PlainSums(benchmark::State& state) {
+  VectorXd sums = VectorXd::LinSpaced(kNumbers, 1.0, 2.0);
+  const VectorXd increment = VectorXd::LinSpaced(kNumbers, 1e-3, 2e-3);
+  for (auto _ : state) {
+    sums += increment;
+    benchmark::DoNotOptimize(sums.data());
+    benchmark::ClobberMemory();
+  }
+}
+BENCHMARK(PlainSums)->Name("sums/plain");
 
 }  // namespace
 }  // namespace emmy::verification

@@ -14,6 +14,8 @@ namespace emmy::verification {
 namespace {
 
 constexpr double kKept = 1e-15;  // As in the claims of the group `structures`.
+constexpr double kTolerance = 1e-6;
+constexpr double kKeptToTolerance = 1e-5;  // In some thousand steps.
 
 IntegratorOptions Options(double time_step) {
   IntegratorOptions options;
@@ -30,7 +32,8 @@ struct Case {
 // Times a case. Its repetitions share one run, which begins again each time: to
 // make a large one takes many times as long as its steps. Only the last is
 // kept.
-void Time(benchmark::State& state, const std::string& name, const Case& made) {
+void Time(benchmark::State& state, const std::string& name, const Case& made,
+          double bound = kKept) {
   static std::string last;
   static std::unique_ptr<CheckedRun> run;
   const std::string key =
@@ -42,7 +45,7 @@ void Time(benchmark::State& state, const std::string& name, const Case& made) {
         std::make_unique<CheckedRun>(made.model(), made.options, made.warm_up);
     last = key;
   }
-  run->TimeSteps(state, kKept);
+  run->TimeSteps(state, bound);
 }
 
 // Arguments: nodes a side, time step in microseconds.
@@ -138,6 +141,41 @@ BENCHMARK(ConventionalChain)
     ->ArgName("boxes")
     ->Arg(10)
     ->Arg(100)
+    ->Arg(1000)
+    ->Unit(benchmark::kMicrosecond);
+
+// One closed loop. Argument: boxes, and joints.
+void Ring(benchmark::State& state) {
+  const auto size = static_cast<int>(state.range(0));
+  Time(state, "ring", {[size] { return BoxRing(size).model; }, Options(1e-3)});
+}
+BENCHMARK(Ring)->Name("ring")->ArgName("boxes")->Arg(100)->Arg(1000)->Unit(
+    benchmark::kMicrosecond);
+
+void ConventionalRing(benchmark::State& state) {
+  const auto size = static_cast<int>(state.range(0));
+  Time(state, "conventional_ring",
+       {[size] { return ConventionalBoxRing(size).model; }, Options(1e-3)});
+}
+BENCHMARK(ConventionalRing)
+    ->Name("ring/conventional")
+    ->ArgName("boxes")
+    ->Arg(100)
+    ->Arg(1000)
+    ->Unit(benchmark::kMicrosecond);
+
+// What iterating to round-off costs: the same to a tolerance. Energy then errs
+// by the work of what is left (EM-7).
+void ChainToTolerance(benchmark::State& state) {
+  IntegratorOptions options = Options(1e-3);
+  options.tolerance = kTolerance;
+  const auto size = static_cast<int>(state.range(0));
+  Time(state, "chain_to_tolerance",
+       {[size] { return BoxChain(size).model; }, options}, kKeptToTolerance);
+}
+BENCHMARK(ChainToTolerance)
+    ->Name("chain_to_tolerance")
+    ->ArgName("boxes")
     ->Arg(1000)
     ->Unit(benchmark::kMicrosecond);
 

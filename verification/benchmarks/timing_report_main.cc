@@ -10,6 +10,8 @@
 #include "absl/status/statusor.h"
 #include "absl/strings/str_cat.h"
 #include "emmy/io/text_file.h"
+#include "verification/figures/figure.h"
+#include "verification/timing/growth_figure.h"
 #include "verification/timing/peer_report.h"
 #include "verification/timing/timing_page.h"
 #include "verification/timing/timing_report.h"
@@ -22,7 +24,7 @@ struct Arguments {
   std::string compare;
   std::string page;
   std::string peers;
-  std::string figure;
+  std::string figures;
   std::string html;
 };
 
@@ -44,22 +46,46 @@ absl::Status WritePage(const std::string& path, const std::string& report) {
                          page->substr(end)));
 }
 
-// The report's tables and, where they are, the peers' and the figure, as a
-// page. A figure that was not drawn is left out.
+// Adds a figure to the page; one that was not drawn is left out.
+void AddFigure(const std::string& directory, TimingFigure figure,
+               TimingPageParts* parts) {
+  const std::string path = absl::StrCat(directory, "/", figure.name);
+  absl::StatusOr<std::string> svg =
+      ReadTextFile(path + ".svg", size_t{1} << 24);
+  absl::StatusOr<std::string> csv =
+      ReadTextFile(path + ".csv", size_t{1} << 24);
+  if (!svg.ok() || !csv.ok()) return;
+  figure.svg = *std::move(svg);
+  figure.csv = *std::move(csv);
+  parts->figures.push_back(std::move(figure));
+}
+
+// The report's tables and, where they are, the peers' and the figures, as a
+// page.
 absl::Status WriteHtml(const Arguments& arguments, const TimingRun& run,
                        const std::string& report, const std::string& peers) {
   TimingPageParts parts;
   parts.report = report;
   parts.peers = peers;
-  if (!arguments.figure.empty()) {
-    absl::StatusOr<std::string> svg =
-        ReadTextFile(arguments.figure + ".svg", size_t{1} << 24);
-    absl::StatusOr<std::string> csv =
-        ReadTextFile(arguments.figure + ".csv", size_t{1} << 24);
-    if (svg.ok() && csv.ok()) {
-      parts.svg = *std::move(svg);
-      parts.csv = *std::move(csv);
-    }
+  if (!arguments.figures.empty()) {
+    AddFigure(arguments.figures,
+              {"growth", "Growth",
+               "Processor time of a step against the size of nets, chains, "
+               "loops, trees and rows",
+               "Processor time of a step over the number of nodes or boxes; "
+               "dashed, a time that grows as the size.",
+               "", ""},
+              &parts);
+    AddFigure(
+        arguments.figures,
+        {"work_precision", "Work and precision",
+         "Error of the angular velocity at 10 s against processor time per "
+         "simulated second",
+         "The paper's box: error of the angular velocity at 10 s against the "
+         "closed-form motion, over the processor time of a simulated second; "
+         "along a curve the step is halved from point to point.",
+         "", ""},
+        &parts);
   }
   return WriteTextFile(arguments.html, TimingPage(run, parts));
 }
@@ -90,6 +116,12 @@ absl::StatusOr<bool> Report(const Arguments& arguments) {
                               CompareTimings(*before, *now));
   }
   std::cout << report << peers << comparison;
+  if (!arguments.figures.empty()) {
+    const absl::Status drawn =
+        WriteFigure(GrowthFigure(*now), arguments.figures);
+    // Without gnuplot there is the data.
+    if (!drawn.ok() && !absl::IsUnavailable(drawn)) return drawn;
+  }
   if (!arguments.html.empty()) {
     const absl::Status written =
         WriteHtml(arguments, *now, report + comparison, peers);
@@ -125,9 +157,9 @@ int main(int argc, char** argv) {
   app.add_option("--peers", arguments.peers,
                  "What emmy_peer_benchmark wrote: a table with other engines")
       ->type_name("FILE");
-  app.add_option("--figure", arguments.figure,
-                 "Path without ending of the figure of emmy_work_precision")
-      ->type_name("PATH");
+  app.add_option("--figures", arguments.figures,
+                 "Where emmy_work_precision has drawn and growth is drawn to")
+      ->type_name("DIR");
   app.add_option("--html", arguments.html, "A page with all of it, to write")
       ->type_name("FILE");
   app.footer(

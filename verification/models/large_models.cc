@@ -185,17 +185,54 @@ Case BoxChain(int n) {
   return value;
 }
 
-Case ConventionalBoxChain(int n) {
-  Case value = BoxChain(n);
-  value.name = absl::StrCat("conventional_box_chain_", n);
-  value.purpose =
-      "A chain of boxes joined by spherical joints, of conventional bodies.";
+namespace {
+
+// The same of conventional bodies.
+Case Conventional(Case value) {
+  value.name = absl::StrCat("conventional_", value.name);
+  value.purpose.back() = ',';
+  value.purpose += " of conventional bodies.";
   for (RigidBodyDescription& box : value.model.rigid_bodies) {
     box.formulation = Formulation::kConventional;
     box.penalty = std::monostate();
   }
   return value;
 }
+
+}  // namespace
+
+Case ConventionalBoxChain(int n) { return Conventional(BoxChain(n)); }
+
+Case BoxRing(int n) {
+  Case value = EmptyCase(absl::StrCat("box_ring_", n),
+                         "A ring of boxes joined by spherical joints.");
+  constexpr double kLength = 3.0;
+  const Vector3d half(0.5 * kLength, 0.0, 0.0);
+  const Vector3d up(0.0, 0.0, 1.0);
+  const double turn = 2.0 * std::acos(-1.0) / n;
+  const double inner_radius = 0.5 * kLength / std::tan(0.5 * turn);
+  // Corner i rises alike with both its boxes.
+  const auto rise = [n](int i) { return 0.1 * std::sin(0.9 * (i % n)); };
+  for (int i = 0; i < n; ++i) {
+    const double angle = turn * i;
+    RigidBodyDescription box = ChainBox(
+        i, inner_radius * Vector3d(std::sin(angle), -std::cos(angle), 0.0));
+    box.orientation = RotationVector{angle * up};
+    const Vector3d along(std::cos(angle), std::sin(angle), 0.0);
+    box.angular_velocity =
+        kSpin * up + 0.1 * std::cos(0.7 * i) * along -
+        ((rise(i + 1) - rise(i)) / kLength) * up.cross(along);
+    box.velocity = (kSpin * up).cross(box.position) +
+                   0.5 * (rise(i + 1) + rise(i)) * up + Vector3d(0.1, 0.2, 0.3);
+    value.model.rigid_bodies.push_back(box);
+    value.model.shared_points.push_back(
+        {BodyPoint{box.name, half},
+         BodyPoint{absl::StrCat("box_", (i + 1) % n), -half}});
+  }
+  return value;
+}
+
+Case ConventionalBoxRing(int n) { return Conventional(BoxRing(n)); }
 
 Case BoxGrid(int n) {
   Case value = EmptyCase(absl::StrCat("box_grid_", n),

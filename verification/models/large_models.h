@@ -31,6 +31,14 @@ Case ConventionalBoxChain(int n);
 // each row and column of boxes tilts its own way.
 Case BoxGrid(int n);
 
+// n ≥ 3 boxes of 3 × 2 × 1 m along the sides of a regular polygon, neighbours
+// sharing its corners: one closed loop of n joints. It spins in its plane and
+// ripples out of it, and each box rolls about its side.
+Case BoxRing(int n);
+
+// The same loop of conventional bodies.
+Case ConventionalBoxRing(int n);
+
 // n boxes in a binary tree of spherical joints: box i hangs on a corner of box
 // (i − 1) / 2. They overlap: there is no contact.
 Case BoxTree(int n);

@@ -17,19 +17,15 @@ size_t Count(const std::string& text, const std::string& word) {
   return count;
 }
 
-std::string WorkPrecision(const TimingPageParts& parts) {
-  if (parts.svg.empty()) return "";
-  return absl::StrCat(
-      "<section id=\"work-precision\">\n<h2>Work and precision</h2>\n<figure>"
-      "<img alt=\"Error of the angular velocity at 10 s against processor time "
-      "per simulated second\" src=\"",
-      DataUri("image/svg+xml", parts.svg),
-      "\">\n<figcaption>The paper's box: error of the angular velocity at 10 s "
-      "against the closed-form motion, over the processor time of a simulated "
-      "second; along a curve the step is halved from point to point. <a "
-      "class=\"data\" download=\"work_precision.csv\" href=\"",
-      DataUri("text/csv", parts.csv),
-      "\">data (CSV)</a></figcaption></figure>\n</section>\n");
+std::string Section(const TimingFigure& figure) {
+  return absl::StrCat("<section id=\"", EscapeHtml(figure.name), "\">\n<h2>",
+                      EscapeHtml(figure.heading), "</h2>\n<figure><img alt=\"",
+                      EscapeHtml(figure.alternative), "\" src=\"",
+                      DataUri("image/svg+xml", figure.svg), "\">\n<figcaption>",
+                      EscapeHtml(figure.caption),
+                      " <a class=\"data\" download=\"", EscapeHtml(figure.name),
+                      ".csv\" href=\"", DataUri("text/csv", figure.csv),
+                      "\">data (CSV)</a></figcaption></figure>\n</section>\n");
 }
 
 }  // namespace
@@ -42,6 +38,10 @@ std::string TimingPage(const TimingRun& run, const TimingPageParts& parts) {
   const size_t failed = Count(tables, "| failed: ");
   const std::string title =
       absl::StrCat(met, " of ", met + missed, " targets met");
+  std::string figures;
+  for (const TimingFigure& figure : parts.figures) {
+    absl::StrAppend(&figures, Section(figure));
+  }
   return absl::StrCat(
       HtmlHead(title, /*has_script=*/false), "<body>\n<header class=\"verdict ",
       missed == 0 && failed == 0 && met > 0 ? "green" : "red",
@@ -51,7 +51,7 @@ std::string TimingPage(const TimingRun& run, const TimingPageParts& parts) {
       "</strong> not measured</li>\n<li><strong>", failed,
       "</strong> without a time</li>\n<li><time>", EscapeHtml(run.date),
       "</time></li>\n</ul>\n</header>\n<main>\n<section id=\"times\">\n",
-      MarkdownHtml(parts.report), "</section>\n", WorkPrecision(parts),
+      MarkdownHtml(parts.report), "</section>\n", figures,
       "<section id=\"peers\">\n", MarkdownHtml(parts.peers),
       "</section>\n<section id=\"environment\">\n<h2>Environment</h2>\n<dl>\n"
       "<dt>processor</dt><dd>",

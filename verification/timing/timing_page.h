@@ -4,20 +4,29 @@
 #define EMMY_VERIFICATION_TIMING_TIMING_PAGE_H_
 
 #include <string>
+#include <vector>
 
 #include "verification/timing/timing.h"
 
 namespace emmy::verification {
 
-struct TimingPageParts {
-  std::string report;  // Markdown: ratios, growth, times; and comparisons.
-  std::string peers;   // Markdown; may be empty.
-  std::string svg;     // Work-precision figure and its data; may be empty.
+struct TimingFigure {
+  std::string name;  // Of its file, without ending.
+  std::string heading;
+  std::string alternative;  // What it shows, for who does not see it.
+  std::string caption;
+  std::string svg;
   std::string csv;
 };
 
+struct TimingPageParts {
+  std::string report;  // Markdown: ratios, growth, times; and comparisons.
+  std::string peers;   // Markdown; may be empty.
+  std::vector<TimingFigure> figures;
+};
+
 // Self-contained, in the style of the verification report: how many targets
-// are met, the tables, the figure with its data, where it was measured.
+// are met, the tables, the figures with their data, where it was measured.
 std::string TimingPage(const TimingRun& run, const TimingPageParts& parts);
 
 }  // namespace emmy::verification
