@@ -57,9 +57,9 @@ inline constexpr double kNegligibleRest = 0x1p-10;
 //
 // Nor is an iteration done that could only confirm it: if the sequence shrinks
 // so fast that its next member would be `negligible` against the floor, that
-// member is lost in rounding. How fast it
-// shrinks is the slower of the last two ratios: one alone may be that of a part
-// which the first correction removes, with a slower part hidden below it.
+// member is lost in rounding. How fast it shrinks is the slower of the last two
+// ratios: one alone may be that of a part which the first correction removes,
+// with a slower part hidden below it.
 //
 // A member at the floor is rounding for the most part, and neither its size nor
 // its ratio says what is left. Where asked, the members before it do: it should
