@@ -9,7 +9,7 @@
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_format.h"
 #include "emmy/io/json_text.h"
-#include "emmy/io/text_file.h"
+#include "verification/reference/json_file.h"
 
 namespace emmy::verification {
 namespace {
@@ -82,16 +82,8 @@ std::string FormatReference(const ReferenceTable& table) {
 }
 
 absl::StatusOr<ReferenceTable> ReadReference(const std::string& path) {
-  const absl::StatusOr<std::string> text = ReadTextFile(path, kMaxJsonBytes);
-  if (!text.ok()) {
-    return absl::NotFoundError(
-        absl::StrCat(path, ": ", text.status().message()));
-  }
-  const absl::StatusOr<nlohmann::json> json = ParseJson(*text);
-  if (!json.ok()) {
-    return absl::DataLossError(
-        absl::StrCat(path, ": ", json.status().message()));
-  }
+  const absl::StatusOr<nlohmann::json> json = ReadJsonFile(path);
+  if (!json.ok()) return json.status();
   try {
     ReferenceTable table = TableFromJson(*json);
     const absl::Status status = CheckShape(*json, table);

@@ -4,8 +4,7 @@
 
 #include "absl/status/status.h"
 #include "absl/strings/str_cat.h"
-#include "emmy/io/json_text.h"
-#include "emmy/io/text_file.h"
+#include "verification/reference/json_file.h"
 #include "verification/reference/project_directory.h"
 #include "verification/runs/published_number.h"
 
@@ -90,16 +89,8 @@ ModelDescription ExternalBody::Ancf(double stiffness) const {
 absl::StatusOr<std::vector<ExternalBody>> ReadExternalBodies() {
   const std::string path =
       ProjectDirectory() + "/reference_data/external/free_rigid_bodies.json";
-  const absl::StatusOr<std::string> text = ReadTextFile(path, kMaxJsonBytes);
-  if (!text.ok()) {
-    return absl::NotFoundError(
-        absl::StrCat(path, ": ", text.status().message()));
-  }
-  const absl::StatusOr<Json> json = ParseJson(*text);
-  if (!json.ok()) {
-    return absl::DataLossError(
-        absl::StrCat(path, ": ", json.status().message()));
-  }
+  const absl::StatusOr<Json> json = ReadJsonFile(path);
+  if (!json.ok()) return json.status();
   std::vector<ExternalBody> bodies;
   try {
     for (const Json& body : json->at("cases")) {

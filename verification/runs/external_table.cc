@@ -5,8 +5,7 @@
 #include "absl/status/status.h"
 #include "absl/strings/str_cat.h"
 #include "emmy/io/case_file.h"
-#include "emmy/io/json_text.h"
-#include "emmy/io/text_file.h"
+#include "verification/reference/json_file.h"
 #include "verification/reference/project_directory.h"
 #include "verification/runs/published_number.h"
 
@@ -37,16 +36,8 @@ ExternalTable TableFromJson(const Json& json) {
 absl::StatusOr<ExternalTable> ReadExternalTable(const std::string& name) {
   const std::string path = absl::StrCat(
       ProjectDirectory(), "/reference_data/external/", name, ".json");
-  const absl::StatusOr<std::string> text = ReadTextFile(path, kMaxJsonBytes);
-  if (!text.ok()) {
-    return absl::NotFoundError(
-        absl::StrCat(path, ": ", text.status().message()));
-  }
-  const absl::StatusOr<Json> json = ParseJson(*text);
-  if (!json.ok()) {
-    return absl::DataLossError(
-        absl::StrCat(path, ": ", json.status().message()));
-  }
+  const absl::StatusOr<Json> json = ReadJsonFile(path);
+  if (!json.ok()) return json.status();
   try {
     return TableFromJson(*json);
   } catch (const Json::exception& error) {
