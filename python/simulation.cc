@@ -73,13 +73,9 @@ std::unique_ptr<Simulation> Simulation::Create(
     const std::string& prefix, std::unique_ptr<LoadedCase> loaded,
     const std::optional<std::string>& path,
     const std::vector<std::string>& overrides, int threads) {
-  const IntegratorSettings& settings = loaded->description.integrator;
   absl::StatusOr<EnergyMomentumIntegrator> integrator =
-      EnergyMomentumIntegrator::Create(loaded->model,
-                                       {.order = settings.order,
-                                        .time_step = settings.time_step,
-                                        .tolerance = settings.tolerance,
-                                        .num_threads = threads});
+      EnergyMomentumIntegrator::Create(
+          loaded->model, OptionsOf(loaded->description.integrator, threads));
   if (!integrator.ok()) {
     ThrowInputError(path.has_value()
                         ? CaseFileError(*path, overrides, integrator.status())

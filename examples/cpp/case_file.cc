@@ -14,9 +14,7 @@ int main(int argc, char** argv) {
   }
   const emmy::IntegratorSettings& settings = loaded->description.integrator;
   auto integrator = emmy::EnergyMomentumIntegrator::Create(
-      loaded->model, {.order = settings.order,
-                      .time_step = settings.time_step,
-                      .tolerance = settings.tolerance});
+      loaded->model, emmy::OptionsOf(settings));
   if (!integrator.ok()) return 2;
 
   std::optional<emmy::HistoryWriter> history;

@@ -44,10 +44,8 @@ void Try(absl::string_view text) {
   if (!built.ok()) return CheckMessage(built.status());
   if (!IsFinite(MeasureInvariants(built->model, built->state))) return;
   absl::StatusOr<EnergyMomentumIntegrator> integrator =
-      EnergyMomentumIntegrator::Create(
-          built->model, {.order = value->integrator.order,
-                         .time_step = value->integrator.time_step,
-                         .tolerance = value->integrator.tolerance});
+      EnergyMomentumIntegrator::Create(built->model,
+                                       OptionsOf(value->integrator));
   if (!integrator.ok()) return CheckMessage(integrator.status());
   const StepReport report = integrator->Step(built->state);
   EMMY_CHECK(report.ok() == report.message.empty(), report.message);

@@ -33,5 +33,23 @@ TEST(NumberOfStepsTest, CountsUpToTheLargestNumber) {
   EXPECT_EQ(Steps(kMaxSteps, 1.0), int64_t{1} << 53);
 }
 
+TEST(OptionsOfTest, AreTheSettingsAndTheThreads) {
+  IntegratorSettings settings;
+  settings.order = 4;
+  settings.time_step = 0.25;
+  settings.tolerance = 1e-6;
+  const IntegratorOptions options = OptionsOf(settings, 3);
+  EXPECT_EQ(options.order, 4);
+  EXPECT_EQ(options.time_step, 0.25);
+  EXPECT_EQ(options.tolerance, 1e-6);
+  EXPECT_EQ(options.num_threads, 3);
+}
+
+TEST(OptionsOfTest, GoToRoundOffOnOneThreadUnlessTold) {
+  const IntegratorOptions options = OptionsOf(IntegratorSettings());
+  EXPECT_FALSE(options.tolerance.has_value());
+  EXPECT_EQ(options.num_threads, 1);
+}
+
 }  // namespace
 }  // namespace emmy

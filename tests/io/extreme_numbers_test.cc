@@ -53,10 +53,8 @@ TEST_P(ExtremeNumbersTest, AreRefusedOrSteppedToNumbers) {
     }
     EXPECT_TRUE(AllFinite(loaded->state));
     absl::StatusOr<EnergyMomentumIntegrator> integrator =
-        EnergyMomentumIntegrator::Create(
-            loaded->model, {.order = read->integrator.order,
-                            .time_step = read->integrator.time_step,
-                            .tolerance = read->integrator.tolerance});
+        EnergyMomentumIntegrator::Create(loaded->model,
+                                         OptionsOf(read->integrator));
     if (!integrator.ok()) {
       ExpectOneLine(integrator.status(), refused);
       continue;

@@ -22,12 +22,9 @@ ExitStatus Check(const CheckArguments& arguments) {
   const absl::StatusOr<LoadedCase> loaded =
       LoadCaseFile(arguments.case_path, arguments.overrides);
   if (!loaded.ok()) return PrintError(loaded.status(), kExitBadInput);
-  const IntegratorSettings& settings = loaded->description.integrator;
   const absl::StatusOr<EnergyMomentumIntegrator> integrator =
-      EnergyMomentumIntegrator::Create(loaded->model,
-                                       {.order = settings.order,
-                                        .time_step = settings.time_step,
-                                        .tolerance = settings.tolerance});
+      EnergyMomentumIntegrator::Create(
+          loaded->model, OptionsOf(loaded->description.integrator));
   if (!integrator.ok()) {
     return PrintError(CaseFileError(arguments.case_path, arguments.overrides,
                                     integrator.status()),

@@ -238,10 +238,7 @@ ExitStatus Run(const RunArguments& arguments) {
   const IntegratorSettings& settings = loaded->description.integrator;
   absl::StatusOr<EnergyMomentumIntegrator> integrator =
       EnergyMomentumIntegrator::Create(loaded->model,
-                                       {.order = settings.order,
-                                        .time_step = settings.time_step,
-                                        .tolerance = settings.tolerance,
-                                        .num_threads = arguments.threads});
+                                       OptionsOf(settings, arguments.threads));
   if (!integrator.ok()) {
     return PrintError(CaseFileError(arguments.case_path, arguments.overrides,
                                     integrator.status()),

@@ -18,4 +18,12 @@ int64_t NumberOfSteps(const IntegratorSettings& settings) {
   return static_cast<int64_t>(is_whole ? nearest : std::ceil(quotient));
 }
 
+IntegratorOptions OptionsOf(const IntegratorSettings& settings,
+                            int num_threads) {
+  return {.order = settings.order,
+          .time_step = settings.time_step,
+          .tolerance = settings.tolerance,
+          .num_threads = num_threads};
+}
+
 }  // namespace emmy

@@ -9,6 +9,7 @@
 #include <string>
 
 #include "emmy/base/export.h"
+#include "emmy/integrate/energy_momentum.h"
 #include "emmy/model/model_description.h"
 
 namespace emmy {
@@ -43,6 +44,10 @@ inline constexpr double kMaxSteps = 9007199254740992.0;  // 2^53
 // 2^-53): T, h and T / h are each rounded, and 0.3 s are three steps of 0.1 s.
 // Needs 0 < T, 0 < h and T / h <= kMaxSteps.
 EMMY_EXPORT int64_t NumberOfSteps(const IntegratorSettings& settings);
+
+// What `settings` ask of the integrator; all else as it comes.
+EMMY_EXPORT IntegratorOptions OptionsOf(const IntegratorSettings& settings,
+                                        int num_threads = 1);
 
 }  // namespace emmy
 
