@@ -1,11 +1,9 @@
 #include "verification/registry.h"
 
-#include <algorithm>
-#include <atomic>
 #include <mutex>
-#include <thread>
 
 #include "verification/claims/groups.h"
+#include "verification/parallel.h"
 
 namespace emmy::verification {
 
@@ -36,21 +34,14 @@ std::vector<Outcome> RunClaims(
     const std::vector<const Claim*>& claims, const ClaimSetting& setting,
     int num_threads, const std::function<void(const Outcome&)>& finished) {
   std::vector<Outcome> outcomes(claims.size());
-  std::atomic<size_t> next = 0;
   std::mutex mutex;
-  const auto work = [&] {
-    for (size_t i = next++; i < claims.size(); i = next++) {
-      outcomes[i] = RunClaim(*claims[i], setting);
-      if (finished) {
-        const std::lock_guard<std::mutex> lock(mutex);
-        finished(outcomes[i]);
-      }
+  ForEachInParallel(claims.size(), num_threads, [&](size_t i) {
+    outcomes[i] = RunClaim(*claims[i], setting);
+    if (finished) {
+      const std::lock_guard<std::mutex> lock(mutex);
+      finished(outcomes[i]);
     }
-  };
-  std::vector<std::thread> threads;
-  for (int i = 1; i < num_threads; ++i) threads.emplace_back(work);
-  work();
-  for (std::thread& thread : threads) thread.join();
+  });
   return outcomes;
 }
 

@@ -1,11 +1,10 @@
 #include "verification/report/write_report.h"
 
-#include <atomic>
-#include <thread>
 #include <utility>
 
 #include "emmy/io/text_file.h"
 #include "verification/figures/figure.h"
+#include "verification/parallel.h"
 #include "verification/report/html_claim.h"
 #include "verification/report/html_page.h"
 #include "verification/report/json_report.h"
@@ -21,16 +20,9 @@ constexpr size_t kMaxImageBytes = size_t{64} << 20;
 std::vector<absl::Status> Draw(const std::vector<const Figure*>& figures,
                                const std::string& directory, int num_threads) {
   std::vector<absl::Status> results(figures.size());
-  std::atomic<size_t> next = 0;
-  const auto work = [&] {
-    for (size_t i = next++; i < figures.size(); i = next++) {
-      results[i] = WriteFigure(*figures[i], directory);
-    }
-  };
-  std::vector<std::thread> threads;
-  for (int i = 1; i < num_threads; ++i) threads.emplace_back(work);
-  work();
-  for (std::thread& thread : threads) thread.join();
+  ForEachInParallel(figures.size(), num_threads, [&](size_t i) {
+    results[i] = WriteFigure(*figures[i], directory);
+  });
   return results;
 }
 
