@@ -10,6 +10,7 @@
 #include "emmy/numerics/unit_roundoff.h"
 #include "verification/claims/groups.h"
 #include "verification/runs/external_body.h"
+#include "verification/runs/extrapolation.h"
 #include "verification/runs/fit.h"
 #include "verification/runs/run.h"
 
@@ -78,18 +79,17 @@ absl::StatusOr<ClaimResult> Extrapolated(const ClaimSetting& setting) {
   for (const ExternalBody& body : *bodies) {
     const MatrixXd published = PublishedMotion(body);
     for (const NamedModel& named : BothFormulations(body)) {
-      std::vector<MatrixXd> motions;
-      for (const double h : {kLargest, kLargest / 2.0, kLargest / 4.0}) {
-        absl::StatusOr<MatrixXd> motion =
-            MotionAtTimes(body, named.model, h, setting.scheme);
-        if (!motion.ok()) return motion.status();
-        motions.push_back(*std::move(motion));
-      }
-      const MatrixXd coarse = (4.0 * motions[1] - motions[0]) / 3.0;
-      const MatrixXd fine = (4.0 * motions[2] - motions[1]) / 3.0;
+      const auto motions = Extrapolate<MatrixXd>(kLargest, [&](double h) {
+        return MotionAtTimes(body, named.model, h, setting.scheme);
+      });
+      if (!motions.ok()) return motions.status();
+      const MatrixXd& fine = motions->fine;
       const auto ratio = [&](int row, int count) {
-        const double expected =
-            (coarse - fine).middleRows(row, count).cwiseAbs().maxCoeff() / 15.0;
+        const double expected = (motions->coarse - fine)
+                                    .middleRows(row, count)
+                                    .cwiseAbs()
+                                    .maxCoeff() /
+                                15.0;
         return (fine - published).middleRows(row, count).cwiseAbs().maxCoeff() /
                expected;
       };
@@ -97,7 +97,7 @@ absl::StatusOr<ClaimResult> Extrapolated(const ClaimSetting& setting) {
       result.values.push_back({named.name + ", angular velocity", ratio(9, 3)});
       result.notes.push_back(absl::StrFormat(
           "%s: error at h/4 = %.3g s: %.2g, extrapolated %.2g", named.name,
-          kLargest / 4.0, (motions[2] - published).cwiseAbs().maxCoeff(),
+          kLargest / 4.0, (motions->plain[2] - published).cwiseAbs().maxCoeff(),
           (fine - published).cwiseAbs().maxCoeff()));
     }
   }

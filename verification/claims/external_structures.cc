@@ -5,7 +5,6 @@
 #include <functional>
 #include <limits>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "absl/strings/str_format.h"
@@ -13,6 +12,7 @@
 #include "verification/claims/groups.h"
 #include "verification/exact/pendulum.h"
 #include "verification/runs/external_table.h"
+#include "verification/runs/extrapolation.h"
 #include "verification/runs/fit.h"
 #include "verification/runs/run.h"
 
@@ -48,17 +48,11 @@ absl::StatusOr<ClaimResult> ExtrapolatedErrors(const std::string& name,
   if (!table.ok()) return table.status();
   const absl::StatusOr<ModelDescription> model = ReadExample(name);
   if (!model.ok()) return model.status();
-  std::vector<MatrixXd> motions;
-  for (const double h :
-       {largest_step, largest_step / 2.0, largest_step / 4.0}) {
-    absl::StatusOr<MatrixXd> motion =
-        ReadAtTimes(*table, *model, h, read, scheme);
-    if (!motion.ok()) return motion.status();
-    motions.push_back(*std::move(motion));
-  }
-  const MatrixXd coarse = (4.0 * motions[1] - motions[0]) / 3.0;
-  const MatrixXd fine = (4.0 * motions[2] - motions[1]) / 3.0;
-  const MatrixXd finest = (16.0 * fine - coarse) / 15.0;
+  const auto motions = Extrapolate<MatrixXd>(largest_step, [&](double h) {
+    return ReadAtTimes(*table, *model, h, read, scheme);
+  });
+  if (!motions.ok()) return motions.status();
+  const MatrixXd& finest = motions->finest;
   const MatrixXd published = table->values.bottomRows(finest.rows());
   ClaimResult result;
   for (Eigen::Index i = 0; i < finest.rows(); ++i) {
@@ -70,8 +64,8 @@ absl::StatusOr<ClaimResult> ExtrapolatedErrors(const std::string& name,
     result.notes.push_back(absl::StrFormat(
         "%s: %.2g, %.2g, %.2g at h, h/2, h/4, h = %g s; extrapolated once "
         "%.2g",
-        label, error(motions[0]), error(motions[1]), error(motions[2]),
-        largest_step, error(fine)));
+        label, error(motions->plain[0]), error(motions->plain[1]),
+        error(motions->plain[2]), largest_step, error(motions->fine)));
   }
   return result;
 }
@@ -158,24 +152,22 @@ absl::StatusOr<ClaimResult> PendulumPhase(const ClaimSetting& setting) {
   // The first passage is a quarter of a period after the release.
   const int count = static_cast<int>(std::lround(duration / half_period));
   const double expected = (count - 0.5) * half_period;
-  std::vector<double> errors;
-  constexpr double kLargest = 1.0 / 128.0;
-  for (const double h : {kLargest, kLargest / 2.0, kLargest / 4.0}) {
-    const absl::StatusOr<double> time =
-        PassageTime(*model, h, count, setting.scheme);
-    if (!time.ok()) return time.status();
-    errors.push_back(*time - expected);
-  }
-  const double coarse = (4.0 * errors[1] - errors[0]) / 3.0;
-  const double fine = (4.0 * errors[2] - errors[1]) / 3.0;
+  const auto error =
+      Extrapolate<double>(1.0 / 128.0, [&](double h) -> absl::StatusOr<double> {
+        const absl::StatusOr<double> time =
+            PassageTime(*model, h, count, setting.scheme);
+        if (!time.ok()) return time.status();
+        return *time - expected;
+      });
+  if (!error.ok()) return error.status();
   ClaimResult result;
   result.values.push_back({absl::StrFormat("passage %d", count),
-                           std::abs(16.0 * fine - coarse) / 15.0 / expected});
+                           std::abs(error->finest) / expected});
   result.notes.push_back(absl::StrFormat(
       "after %.6g s, late by %.3g, %.3g, %.3g s with h, h/2, h/4, h = 1/128 "
       "s; extrapolated once %.3g, twice %.3g s",
-      expected, errors[0], errors[1], errors[2], fine,
-      (16.0 * fine - coarse) / 15.0));
+      expected, error->plain[0], error->plain[1], error->plain[2], error->fine,
+      error->finest));
   return result;
 }
 
