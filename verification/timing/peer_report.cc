@@ -23,12 +23,6 @@ const std::vector<std::pair<std::string, std::string>>& Cases() {
   return *cases;
 }
 
-std::string ErrorText(const Timing& timing, const std::string& name) {
-  const auto counter = timing.counters.find(name);
-  if (counter == timing.counters.end()) return "–";
-  return absl::StrFormat("%.1e", counter->second);
-}
-
 std::string Row(const Timing& timing, const std::string& who,
                 const Timing* own) {
   if (!timing.error.empty()) {
@@ -40,8 +34,8 @@ std::string Row(const Timing& timing, const std::string& who,
                      : absl::StrFormat("%.3g", timing.median / own->median);
   return absl::StrFormat("| `%s` | %s | %.0f %% | %s | %s | %s | %s |\n", who,
                          TimeText(timing.median), 100.0 * timing.spread, ratio,
-                         ErrorText(timing, "energy_error"),
-                         ErrorText(timing, "angular_momentum_error"),
+                         CounterText(timing, "energy_error", true),
+                         CounterText(timing, "angular_momentum_error", true),
                          timing.label);
 }
 

@@ -13,7 +13,8 @@ namespace {
 
 constexpr char kYardstick[] = "one_body/runge_kutta";
 
-// "–" if the benchmark has no such counter.
+}  // namespace
+
 std::string CounterText(const Timing& timing, const std::string& name,
                         bool is_error) {
   const auto counter = timing.counters.find(name);
@@ -21,8 +22,6 @@ std::string CounterText(const Timing& timing, const std::string& name,
   return is_error ? absl::StrFormat("%.1e", counter->second)
                   : absl::StrFormat("%.3g", counter->second);
 }
-
-}  // namespace
 
 std::string RatioTable(const TimingRun& run, const std::vector<Ratio>& ratios) {
   std::string text =

@@ -28,6 +28,10 @@ const std::vector<Ratio>& Ratios();
 // A Markdown table of them, with what was not measured.
 std::string RatioTable(const TimingRun& run, const std::vector<Ratio>& ratios);
 
+// "3.02", or "1.2e-16" for an error; "–" if the benchmark has no such counter.
+std::string CounterText(const Timing& timing, const std::string& name,
+                        bool is_error);
+
 // p of time = C size^p over benchmarks of several sizes, and what it should be
 // at most.
 struct Growth {
