@@ -47,6 +47,17 @@ TEST(FigureTest, WritesDataScriptAndImage) {
   EXPECT_THAT(Text(directory / "sample.svg"), HasSubstr("Time [s]"));
 }
 
+TEST(FigureTest, PowersOfTenAreAskedForBeforeTheScript) {
+  Figure figure = Sample();
+  const std::string plain = FigureScript(figure);
+  figure.powers_of_ten = true;
+  const std::string preamble =
+      plain.substr(0, plain.size() - figure.script.size());
+  EXPECT_EQ(
+      FigureScript(figure),
+      preamble + "set logscale xy\nset format '10^{%T}'\n" + figure.script);
+}
+
 TEST(FigureTest, SaysSoIfItCannotBeDrawn) {
   Figure wrong = Sample();
   wrong.script = "plot no_such_variable\n";

@@ -114,9 +114,7 @@ absl::StatusOr<ClaimResult> Measure(const ClaimSetting& setting,
        .columns = {{"steps", growth.steps},
                    {"energy error 90th percentile", energy},
                    {"angular momentum error 90th percentile", momentum}},
-       .script = R"(set logscale xy
-set format '10^{%T}'
-set xlabel 'Number of steps'
+       .script = R"(set xlabel 'Number of steps'
 set ylabel 'Relative error, 90th percentile'
 set key top left
 root(x) = 1e-19 * sqrt(x)
@@ -125,7 +123,8 @@ plot data using 1:2 with linespoints lt 1 title 'Energy', \
      data using 1:3 with linespoints lt 4 title 'Angular momentum', \
      root(x) with lines lt 7 dt 2 lw 1.5 title 'Slope 1/2 (random walk)', \
      linear(x) with lines lt 7 dt 4 lw 1.5 title 'Slope 1 (bias)'
-)"});
+)",
+       .powers_of_ten = true});
   return result;
 }
 

@@ -55,9 +55,7 @@ Figure EnergyErrorFigure(const EnergyErrorStudy& study) {
   Figure figure{.name = "energy_error",
                 .title = "Energy error over many steps",
                 .columns = {{"steps", study.steps}},
-                .script = R"(set logscale xy
-set format '10^{%T}'
-set lmargin 11
+                .script = R"(set lmargin 11
 set rmargin 24
 set xlabel 'Number of time steps'
 set ylabel 'Largest relative energy error'
@@ -80,7 +78,8 @@ plot unit with lines lt 7 lw 1 dt 3 notitle, \
        lw 2.5 title sprintf('α = 10%s Pa', exponent[k])
 )",
                 .width = 960,
-                .height = 500};
+                .height = 500,
+                .powers_of_ten = true};
   for (const EnergyErrorCurve& curve : study.curves) {
     const std::string name = PenaltyLabel(curve.penalty);
     figure.columns.push_back({"error " + name, curve.errors});

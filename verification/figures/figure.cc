@@ -35,6 +35,10 @@ set tics nomirror
 set border 3 lw 1
 )";
 
+constexpr char kPowersOfTen[] = R"(set logscale xy
+set format '10^{%T}'
+)";
+
 std::string ShellQuoted(const std::string& text) {
   return absl::StrCat("'", absl::StrReplaceAll(text, {{"'", "'\\''"}}), "'");
 }
@@ -62,7 +66,7 @@ std::string FigureCsv(const Figure& figure) {
 
 std::string FigureScript(const Figure& figure) {
   return absl::StrFormat(kPreamble, figure.name, figure.width, figure.height) +
-         figure.script;
+         (figure.powers_of_ten ? kPowersOfTen : "") + figure.script;
 }
 
 absl::Status WriteFigure(const Figure& figure, const std::string& directory) {

@@ -25,6 +25,7 @@ struct Figure {
   std::string script;
   int width = 960;  // [px]
   int height = 600;
+  bool powers_of_ten = false;  // Both axes; set before the script.
 };
 
 // The table as CSV: a header row, 17 significant digits.

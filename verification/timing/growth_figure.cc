@@ -38,11 +38,9 @@ Figure GrowthFigure(const TimingRun& run) {
                     {"nodes or boxes", sizes},
                     {"processor time of a step [us]", times}};
   figure.height = 640;
+  figure.powers_of_ten = true;
   figure.script = absl::StrFormat(
-      R"(set logscale xy
-set format x '10^{%%L}'
-set format y '10^{%%L}'
-set xlabel 'nodes or boxes'
+      R"(set xlabel 'nodes or boxes'
 set ylabel 'processor time of a step [µs]'
 set key below left vertical maxrows 6
 plot %s0.3*x with lines lc rgb 'gray' dt 2 title 'as the size'
