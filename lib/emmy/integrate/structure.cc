@@ -1,40 +1,11 @@
 #include "emmy/integrate/structure.h"
 
 #include <algorithm>
-#include <numeric>
+
+#include "emmy/base/disjoint_sets.h"
 
 namespace emmy {
 namespace {
-
-// Disjoint sets of vector coordinates.
-class Components {
- public:
-  explicit Components(size_t size) : parent_(size) {
-    std::iota(parent_.begin(), parent_.end(), size_t{0});
-  }
-  size_t Find(size_t i) {
-    while (parent_[i] != i) {
-      parent_[i] = parent_[parent_[i]];
-      i = parent_[i];
-    }
-    return i;
-  }
-  // The lower number stands for both, which keeps the model's order.
-  void Join(size_t a, size_t b) {
-    a = Find(a);
-    b = Find(b);
-    parent_[std::max(a, b)] = std::min(a, b);
-  }
-  void JoinTerms(const std::vector<WeightedVector>& terms) {
-    for (const WeightedVector& term : terms) {
-      Join(static_cast<size_t>(terms.front().vector),
-           static_cast<size_t>(term.vector));
-    }
-  }
-
- private:
-  std::vector<size_t> parent_;
-};
 
 // Masses of a body by itself: one for x̄ and the second moments.
 bool IsBodyMass(const ModelBody& body, int row, const MassEntry& entry) {
@@ -47,7 +18,7 @@ bool IsBodyMass(const ModelBody& body, int row, const MassEntry& entry) {
 
 // Vectors of conventional structures are handled elsewhere.
 std::vector<bool> TouchesConventional(const Model& model,
-                                      Components& components) {
+                                      const DisjointSets& components) {
   std::vector<bool> touches(model.vectors().size(), false);
   for (const ModelLine& line : model.lines()) {
     if (!line.has_conventional_end()) continue;
@@ -77,23 +48,34 @@ class Splitter {
     for (const ModelBody& body : model_.bodies()) {
       if (body.ancf() == nullptr) continue;
       for (int a = 1; a < 4; ++a) {
-        components_.Join(static_cast<size_t>(body.first_vector),
-                         static_cast<size_t>(body.first_vector + a));
+        Join(body.first_vector, body.first_vector + a);
       }
     }
     for (size_t v = 0; v < model_.mass().size(); ++v) {
       for (const MassEntry& entry : model_.mass()[v]) {
-        components_.Join(v, static_cast<size_t>(entry.column));
+        Join(static_cast<int>(v), entry.column);
       }
     }
     for (const ModelLine& line : model_.lines()) {
       std::vector<WeightedVector> both = line.ends[0].terms;
       both.insert(both.end(), line.ends[1].terms.begin(),
                   line.ends[1].terms.end());
-      components_.JoinTerms(both);
+      JoinTerms(both);
     }
     for (const ModelConstraint& constraint : model_.constraints()) {
-      components_.JoinTerms(constraint.terms);
+      JoinTerms(constraint.terms);
+    }
+  }
+
+  // The lower number stands for both, which keeps the model's order.
+  void Join(int a, int b) {
+    const size_t first = components_.Find(static_cast<size_t>(a));
+    const size_t second = components_.Find(static_cast<size_t>(b));
+    components_.Join(std::min(first, second), std::max(first, second));
+  }
+  void JoinTerms(const std::vector<WeightedVector>& terms) {
+    for (const WeightedVector& term : terms) {
+      Join(terms.front().vector, term.vector);
     }
   }
 
@@ -212,7 +194,7 @@ class Splitter {
   }
 
   const Model& model_;
-  Components components_;
+  DisjointSets components_;  // Of vector coordinates.
   std::vector<int> local_;
   std::vector<int> structure_of_root_;
   std::vector<Structure> structures_;

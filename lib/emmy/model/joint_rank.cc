@@ -3,9 +3,9 @@
 #include <Eigen/Eigenvalues>
 #include <array>
 #include <cmath>
-#include <numeric>
 #include <utility>
 
+#include "emmy/base/disjoint_sets.h"
 #include "emmy/model/row_space.h"
 #include "emmy/numerics/rotation.h"
 
@@ -79,34 +79,26 @@ SparseRow Combine(const JointRows& rows, const Vector3d& weights) {
 class Loops {
  public:
   Loops(size_t num_bodies, const std::vector<ModelJoint>& joints)
-      : parent_(num_bodies + 1), closed_(num_bodies + 1, false) {
-    std::iota(parent_.begin(), parent_.end(), size_t{0});
+      : parts_(num_bodies + 1), closed_(num_bodies + 1, false) {
     for (const ModelJoint& joint : joints) {
-      const size_t first = Find(Number(joint.points[0]));
-      const size_t second = Find(Number(joint.points[1]));
+      const size_t first = parts_.Find(Number(joint.points[0]));
+      const size_t second = parts_.Find(Number(joint.points[1]));
       closed_[first] = closed_[first] || closed_[second] || first == second;
-      parent_[second] = first;
+      parts_.Join(first, second);
     }
   }
 
-  bool IsClosed(const ModelJoint& joint) {
-    return closed_[Find(Number(joint.points[0]))];
+  bool IsClosed(const ModelJoint& joint) const {
+    return closed_[parts_.Find(Number(joint.points[0]))];
   }
 
  private:
   // Of the body, or the last for the ground.
   size_t Number(const Point& point) const {
-    return point.conventional_body.value_or(parent_.size() - 1);
-  }
-  size_t Find(size_t i) {
-    while (parent_[i] != i) {
-      parent_[i] = parent_[parent_[i]];
-      i = parent_[i];
-    }
-    return i;
+    return point.conventional_body.value_or(parts_.size() - 1);
   }
 
-  std::vector<size_t> parent_;
+  DisjointSets parts_;
   std::vector<bool> closed_;  // Of those that stand for their part.
 };
 
@@ -117,7 +109,7 @@ std::vector<ModelJoint> IndependentJoints(
     const std::vector<Matrix3d>& rotations, std::vector<ModelJoint> joints) {
   std::vector<ModelJoint> kept;
   RowSpace space;
-  Loops loops(bodies.size(), joints);
+  const Loops loops(bodies.size(), joints);
   for (const ModelJoint& joint : joints) {
     if (!loops.IsClosed(joint)) continue;
     for (const SparseRow& row : RowsOf(bodies, rotations, joint)) {

@@ -1,18 +1,12 @@
 #include "emmy/model/node_ties.h"
 
-#include <numeric>
 #include <utility>
 
 namespace emmy {
 
-NodeTies::NodeTies(size_t num_nodes) : parent_(num_nodes), anchor_(num_nodes) {
-  std::iota(parent_.begin(), parent_.end(), size_t{0});
-}
+NodeTies::NodeTies(size_t num_nodes) : nodes_(num_nodes), anchor_(num_nodes) {}
 
-size_t NodeTies::Representative(size_t node) const {
-  while (parent_[node] != node) node = parent_[node];
-  return node;
-}
+size_t NodeTies::Representative(size_t node) const { return nodes_.Find(node); }
 
 const std::optional<ResolvedPoint>& NodeTies::Anchor(size_t node) const {
   return anchor_[Representative(node)];
@@ -47,7 +41,7 @@ void NodeTies::Tie(const ResolvedPoint& first, const ResolvedPoint& second,
   const size_t kept = Representative(first_node->node);
   const size_t joined = Representative(second_node->node);
   if (kept == joined) return;
-  parent_[joined] = kept;
+  nodes_.Join(kept, joined);
   std::optional<ResolvedPoint> anchor;
   anchor.swap(anchor_[joined]);
   if (anchor.has_value()) Attach(kept, *anchor, pointer);

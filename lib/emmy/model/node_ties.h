@@ -13,6 +13,7 @@
 #include <variant>
 #include <vector>
 
+#include "emmy/base/disjoint_sets.h"
 #include "emmy/base/types.h"
 
 namespace emmy {
@@ -59,7 +60,7 @@ class NodeTies {
   void Attach(size_t node, const ResolvedPoint& anchor,
               const std::string& pointer);
 
-  std::vector<size_t> parent_;
+  DisjointSets nodes_;
   std::vector<std::optional<ResolvedPoint>> anchor_;  // Of representatives.
   std::vector<AnchorPair> remaining_;
 };
