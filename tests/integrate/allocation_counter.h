@@ -7,7 +7,11 @@
 #ifndef EMMY_TESTS_INTEGRATE_ALLOCATION_COUNTER_H_
 #define EMMY_TESTS_INTEGRATE_ALLOCATION_COUNTER_H_
 
+#include <gtest/gtest.h>
+
 #include <cstdint>
+
+#include "tests/support/test_run.h"
 
 namespace emmy {
 
@@ -17,6 +21,17 @@ struct AllocationCount {
 };
 
 AllocationCount AllocationsSoFar();
+
+// All steps have to converge.
+inline void ExpectStepsAllocateNothing(TestRun& run, int num_steps) {
+  bool ok = true;
+  const AllocationCount before = AllocationsSoFar();
+  for (int i = 0; i < num_steps; ++i) ok = run.Step().ok() && ok;
+  const AllocationCount after = AllocationsSoFar();
+  EXPECT_TRUE(ok);
+  EXPECT_EQ(after.malloc, before.malloc);
+  EXPECT_EQ(after.new_, before.new_);
+}
 
 }  // namespace emmy
 

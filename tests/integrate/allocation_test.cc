@@ -38,13 +38,7 @@ TEST_P(AllocationTest, AStepThatConvergesAllocatesNothing) {
     TestRun run(ThreeBodies(),
                 IntegratorOptions{.time_step = GetParam(),
                                   .always_full_newton = full_newton});
-    bool ok = true;
-    const AllocationCount before = AllocationsSoFar();
-    for (int i = 0; i < 20; ++i) ok = run.Step().ok() && ok;
-    const AllocationCount after = AllocationsSoFar();
-    EXPECT_TRUE(ok);
-    EXPECT_EQ(after.malloc, before.malloc);
-    EXPECT_EQ(after.new_, before.new_);
+    ExpectStepsAllocateNothing(run, 20);
   }
 }
 

@@ -154,13 +154,7 @@ TEST_P(CompositionTest, CountsWholeSteps) {
 
 TEST_P(CompositionTest, AStepThatConvergesAllocatesNothing) {
   TestRun run(ModelOf(PaperBox()), Options(1e-2));
-  bool ok = true;
-  const AllocationCount before = AllocationsSoFar();
-  for (int i = 0; i < 5; ++i) ok = run.Step().ok() && ok;
-  const AllocationCount after = AllocationsSoFar();
-  EXPECT_TRUE(ok);
-  EXPECT_EQ(after.malloc, before.malloc);
-  EXPECT_EQ(after.new_, before.new_);
+  ExpectStepsAllocateNothing(run, 5);
 }
 
 // Whichever part fails: more iterations let more parts pass.

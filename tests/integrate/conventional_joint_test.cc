@@ -7,8 +7,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <functional>
-#include <ostream>
 #include <string>
 #include <utility>
 #include <variant>
@@ -36,14 +34,6 @@ constexpr double kTimeStep = 1e-3;
 
 ModelDescription Chain(int n) {
   return Conventional(verification::BoxChain(n).model);
-}
-
-ModelDescription Loaded(ModelDescription model) {
-  model.gravity = {0.1, -0.2, -9.81};
-  model.loads.push_back(TorqueLoad{"box_1", {300.0, -200.0, 100.0}});
-  model.loads.push_back(
-      ForceLoad{BodyPoint{"box_2", {0.3, 0.2, 0.1}}, {200.0, -100.0, 50.0}});
-  return model;
 }
 
 // A chain with a truss to a node on one box, and one between two others.
@@ -102,12 +92,7 @@ double LargestSpeed(const TestRun& run) {
   return largest;
 }
 
-struct Kind {
-  const char* name;
-  std::function<ModelDescription()> model;
-  bool is_free = true;  // Not held by the ground, and without load.
-  friend void PrintTo(const Kind& kind, std::ostream* os) { *os << kind.name; }
-};
+using Kind = JointKind;
 
 class ConventionalJointTest : public ::testing::TestWithParam<Kind> {};
 
@@ -137,18 +122,7 @@ TEST_P(ConventionalJointTest, JointsStayClosedToTheRoundingOfOneStep) {
 }
 
 TEST_P(ConventionalJointTest, RunsBackToTheStart) {
-  TestRun run(GetParam().model(), kTimeStep);
-  const State start = run.state();
-  const auto miss = [&] {
-    return (run.state().position.value - start.position.value)
-        .cwiseAbs()
-        .maxCoeff();
-  };
-  ASSERT_TRUE(run.Advance(100));
-  EXPECT_GT(miss(), 1e-3);
-  run.SetOptions({.time_step = -kTimeStep});
-  ASSERT_TRUE(run.Advance(100));
-  EXPECT_LE(miss(), 1e-12);
+  ExpectRunsBack(GetParam().model(), kTimeStep, 100, 1e-3);
 }
 
 TEST_P(ConventionalJointTest, LargeStepsKeepTheEnergy) {
@@ -297,13 +271,7 @@ TEST(ConventionalJointFailureTest, ASingularPositionIsReported) {
 TEST(ConventionalJointAllocationTest, AStepAllocatesNothing) {
   TestRun run(Chain(20), kTimeStep);
   ASSERT_TRUE(run.Advance(3));
-  bool ok = true;
-  const AllocationCount before = AllocationsSoFar();
-  for (int i = 0; i < 20; ++i) ok = run.Step().ok() && ok;
-  const AllocationCount after = AllocationsSoFar();
-  EXPECT_TRUE(ok);
-  EXPECT_EQ(after.malloc, before.malloc);
-  EXPECT_EQ(after.new_, before.new_);
+  ExpectStepsAllocateNothing(run, 20);
 }
 
 // Two plates held apart by `legs` rods with a ball at each end: the joints of a

@@ -7,10 +7,8 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <functional>
 #include <limits>
 #include <optional>
-#include <ostream>
 #include <string>
 
 #include "emmy/diagnostics/extended_state.h"
@@ -24,10 +22,6 @@ namespace emmy {
 namespace {
 
 constexpr double kKept = 1e-15;  // Of each law, relative.
-
-double LargestDifference(const State& a, const State& b) {
-  return (a.position.value - b.position.value).cwiseAbs().maxCoeff();
-}
 
 // The largest gap of a joint [m].
 double LargestGap(const TestRun& run) {
@@ -46,14 +40,6 @@ double LargestGap(const TestRun& run) {
 
 ModelDescription Chain(int n) { return verification::BoxChain(n).model; }
 
-ModelDescription Loaded(ModelDescription model) {
-  model.gravity = {0.1, -0.2, -9.81};
-  model.loads.push_back(TorqueLoad{"box_1", {300.0, -200.0, 100.0}});
-  model.loads.push_back(
-      ForceLoad{BodyPoint{"box_2", {0.3, 0.2, 0.1}}, {200.0, -100.0, 50.0}});
-  return model;
-}
-
 // One corner in the ground, at rest.
 ModelDescription Held(ModelDescription model) {
   for (RigidBodyDescription& box : model.rigid_bodies) {
@@ -68,12 +54,7 @@ ModelDescription Held(ModelDescription model) {
   return model;
 }
 
-struct Kind {
-  const char* name;
-  std::function<ModelDescription()> model;
-  bool is_free = true;  // Not held by the ground, and without load.
-  friend void PrintTo(const Kind& kind, std::ostream* os) { *os << kind.name; }
-};
+using Kind = JointKind;
 
 class JointStepTest : public ::testing::TestWithParam<Kind> {
  protected:
@@ -116,13 +97,7 @@ TEST_P(JointStepTest, JointsStayClosed) {
 }
 
 TEST_P(JointStepTest, RunsBackToTheStart) {
-  TestRun run(GetParam().model(), kTimeStep);
-  const State start = run.state();
-  ASSERT_TRUE(run.Advance(100));
-  EXPECT_GT(LargestDifference(run.state(), start), 1e-3);
-  run.SetOptions({.time_step = -kTimeStep});
-  ASSERT_TRUE(run.Advance(100));
-  EXPECT_LE(LargestDifference(run.state(), start), 1e-12);
+  ExpectRunsBack(GetParam().model(), kTimeStep, 100, 1e-3);
 }
 
 // Large steps, where the correction does not converge: as before.
@@ -168,13 +143,7 @@ INSTANTIATE_TEST_SUITE_P(
 TEST(JointStepAllocationTest, AChainAllocatesNothing) {
   TestRun run(Chain(20), 1e-3);
   ASSERT_TRUE(run.Advance(3));
-  bool ok = true;
-  const AllocationCount before = AllocationsSoFar();
-  for (int i = 0; i < 20; ++i) ok = run.Step().ok() && ok;
-  const AllocationCount after = AllocationsSoFar();
-  EXPECT_TRUE(ok);
-  EXPECT_EQ(after.malloc, before.malloc);
-  EXPECT_EQ(after.new_, before.new_);
+  ExpectStepsAllocateNothing(run, 20);
 }
 
 // Iterations a step in the mean of some steps, from the 100th on: those before

@@ -5,6 +5,8 @@
 
 #include <Eigen/Geometry>
 #include <array>
+#include <functional>
+#include <ostream>
 #include <string>
 #include <variant>
 #include <vector>
@@ -42,6 +44,15 @@ inline ModelDescription HangingChain(int n, bool both_ends) {
         {GroundPoint{last.position + Vector3d(1.5, 0.0, 0.0)},
          BodyPoint{last.name, {1.5, 0.0, 0.0}}});
   }
+  return model;
+}
+
+// With gravity, a torque and a force; for models with three boxes.
+inline ModelDescription Loaded(ModelDescription model) {
+  model.gravity = {0.1, -0.2, -9.81};
+  model.loads.push_back(TorqueLoad{"box_1", {300.0, -200.0, 100.0}});
+  model.loads.push_back(
+      ForceLoad{BodyPoint{"box_2", {0.3, 0.2, 0.1}}, {200.0, -100.0, 50.0}});
   return model;
 }
 
@@ -108,6 +119,16 @@ inline ModelDescription BoxRhombus(bool hinged) {
   }
   return model;
 }
+
+// A kind of such models, as the parameter of a test.
+struct JointKind {
+  const char* name;
+  std::function<ModelDescription()> model;
+  bool is_free = true;  // Not held by the ground, and without load.
+  friend void PrintTo(const JointKind& kind, std::ostream* os) {
+    *os << kind.name;
+  }
+};
 
 }  // namespace emmy
 

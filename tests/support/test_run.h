@@ -97,6 +97,24 @@ inline bool SameState(const State& a, const State& b) {
          a.multiplier.differences == b.multiplier.differences;
 }
 
+// The largest difference of coordinates.
+inline double LargestDifference(const State& a, const State& b) {
+  return (a.position.value - b.position.value).cwiseAbs().maxCoeff();
+}
+
+// So many steps from the start, which move something by more than `moved`, and
+// as many back: to where it was but for rounding.
+inline void ExpectRunsBack(const ModelDescription& model, double time_step,
+                           int64_t num_steps, double moved) {
+  TestRun run(model, time_step);
+  const State start = run.state();
+  ASSERT_TRUE(run.Advance(num_steps));
+  EXPECT_GT(LargestDifference(run.state(), start), moved);
+  run.SetOptions({.time_step = -time_step});
+  ASSERT_TRUE(run.Advance(num_steps));
+  EXPECT_LE(LargestDifference(run.state(), start), 1e-12);
+}
+
 }  // namespace emmy
 
 #endif  // EMMY_TESTS_SUPPORT_TEST_RUN_H_
