@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "absl/strings/str_cat.h"
 #include "emmy/model/model_builder.h"
 #include "tests/integrate/lanes_run.h"
 #include "tests/support/paper_box.h"
@@ -115,15 +116,7 @@ TEST_F(AncfBodyLanesTest, AdvancesTheStateBitForBit) {
     CommitInLanes(increment, kTimeStep, CentreIncrement(kTimeStep, gravity),
                   body, fast);
 
-    const Vector3d change = kTimeStep * gravity;
-    for (int i = 0; i < 3; ++i) {
-      const double mean =
-          plain.velocity.value(w + i) +
-          (plain.velocity.compensation(w + i) + 0.5 * change(i));
-      const SumAndError product = TwoProduct(kTimeStep, mean);
-      AddCompensated(product.sum, product.error, plain.position.value(q + i),
-                     plain.position.compensation(q + i));
-    }
+    AddCentre(body, kTimeStep, gravity, plain);
     for (int i = 3; i < 12; ++i) {
       AddCompensated(increment.gradients[i], increment.gradients_low[i],
                      plain.position.value(q + i),
@@ -133,7 +126,6 @@ TEST_F(AncfBodyLanesTest, AdvancesTheStateBitForBit) {
                      Eigen::Map<const Vector3d>(increment.stretch + 1));
     plain.strain.Add(body.strain_offset + 3,
                      Eigen::Map<const Vector3d>(increment.shear + 1));
-    plain.velocity.Add(w, change);
     const Eigen::Map<const Vector9d> rates(increment.rates + 3);
     plain.velocity.Add(w + 3, rates);
     Extrapolation::Errors errors{};
@@ -276,15 +268,10 @@ TEST_F(AncfBodyLanesTest, NothingThatIsNotFiniteConverges) {
   for (const double bad : {std::numeric_limits<double>::quiet_NaN(),
                            std::numeric_limits<double>::infinity()}) {
     for (const Eigen::Index entry : {3, 7, 11}) {
-      TestRun run(Boxes(), kTimeStep);
-      const ModelBody& body = run.model().bodies()[0];
-      State state = run.state();
-      state.velocity.value(entry) = bad;
-      AncfLanesIncrement increment;
-      const AncfBodyLanes lanes(*body.ancf(), kTimeStep, {});
-      EXPECT_NE(SolveInLanes(lanes, body, state, &increment).termination,
-                Termination::kConverged)
-          << bad << " at " << entry;
+      SCOPED_TRACE(absl::StrCat(bad, " at ", entry));
+      ExpectNotConverged<AncfBodyLanes, AncfLanesIncrement>(
+          Boxes(), kTimeStep, &ModelBody::ancf,
+          [&](State& state) { state.velocity.value(entry) = bad; });
     }
   }
 }

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "absl/strings/str_cat.h"
 #include "emmy/base/double_double.h"
 #include "emmy/model/model_builder.h"
 #include "tests/integrate/lanes_run.h"
@@ -100,20 +101,13 @@ TEST_F(ConventionalBodyLanesTest, AdvancesTheStateBitForBit) {
                   body, fast);
 
     plain.position.Add(q + 3, Eigen::Map<const Vector4d>(increment.quaternion));
-    const Vector3d change = kTimeStep * gravity;
+    AddCentre(body, kTimeStep, gravity, plain);
     for (int i = 0; i < 3; ++i) {
-      const double mean =
-          plain.velocity.value(w + i) +
-          (plain.velocity.compensation(w + i) + 0.5 * change(i));
-      const SumAndError product = TwoProduct(kTimeStep, mean);
-      AddCompensated(product.sum, product.error, plain.position.value(q + i),
-                     plain.position.compensation(q + i));
       AddCompensated(increment.angular_velocity[1 + i],
                      increment.angular_velocity_low[1 + i],
                      plain.velocity.value(w + 3 + i),
                      plain.velocity.compensation(w + 3 + i));
     }
-    plain.velocity.Add(w, change);
     const Vector3d rates =
         Eigen::Map<const Vector3d>(increment.angular_velocity + 1);
     Extrapolation::Errors errors{};
@@ -174,28 +168,19 @@ TEST_F(ConventionalBodyLanesTest, ABodyThatTurnsAboutAnAxisKeepsItsVelocity) {
 }
 
 TEST_F(ConventionalBodyLanesTest, NothingThatIsNotFiniteConverges) {
+  const auto expect_not_converged = [](const auto& spoil) {
+    ExpectNotConverged<ConventionalBodyLanes, ConventionalLanesIncrement>(
+        Boxes(), kTimeStep, &ModelBody::conventional, spoil);
+  };
   for (const double bad : {std::numeric_limits<double>::quiet_NaN(),
                            std::numeric_limits<double>::infinity()}) {
     for (const Eigen::Index entry : {3, 4, 5}) {
-      TestRun run(Boxes(), kTimeStep);
-      const ModelBody& body = run.model().bodies()[0];
-      State state = run.state();
-      state.velocity.value(entry) = bad;
-      ConventionalLanesIncrement increment;
-      const ConventionalBodyLanes lanes(*body.conventional(), kTimeStep, {});
-      EXPECT_NE(SolveInLanes(lanes, body, state, &increment).termination,
-                Termination::kConverged)
-          << bad << " at " << entry;
+      SCOPED_TRACE(absl::StrCat(bad, " at ", entry));
+      expect_not_converged(
+          [&](State& state) { state.velocity.value(entry) = bad; });
     }
-    TestRun run(Boxes(), kTimeStep);
-    const ModelBody& body = run.model().bodies()[0];
-    State state = run.state();
-    state.position.value(4) = bad;
-    ConventionalLanesIncrement increment;
-    const ConventionalBodyLanes lanes(*body.conventional(), kTimeStep, {});
-    EXPECT_NE(SolveInLanes(lanes, body, state, &increment).termination,
-              Termination::kConverged)
-        << bad;
+    SCOPED_TRACE(absl::StrCat(bad, " in the attitude"));
+    expect_not_converged([&](State& state) { state.position.value(4) = bad; });
   }
 }
 

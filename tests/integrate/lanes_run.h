@@ -7,7 +7,9 @@
 #include <hwy/targets.h>
 
 #include <cstdint>
+#include <functional>
 
+#include "emmy/base/compensated_sum.h"
 #include "emmy/integrate/body_numbers.h"
 #include "emmy/model/model.h"
 #include "emmy/model/state.h"
@@ -73,6 +75,40 @@ class LanesTest : public InstructionSetTest {
       }
       EXPECT_TRUE(SameState(once, twice)) << hwy::TargetName(target);
     }
+  }
+
+  // From the start of the first body, after `spoil` has changed the state.
+  template <typename LanesType, typename IncrementType, typename Element>
+  static void ExpectNotConverged(const ModelDescription& model,
+                                 double time_step,
+                                 const Element* (ModelBody::*element)() const,
+                                 const std::function<void(State&)>& spoil) {
+    TestRun run(model, time_step);
+    const ModelBody& body = run.model().bodies()[0];
+    State state = run.state();
+    spoil(state);
+    IncrementType increment;
+    const LanesType lanes(*(body.*element)(), time_step, {});
+    EXPECT_NE(SolveInLanes(lanes, body, state, &increment).termination,
+              Termination::kConverged);
+  }
+
+  // Moves the centre of a body as CommitInLanes does, by the plain loops of
+  // CompensatedVector.
+  static void AddCentre(const ModelBody& body, double time_step,
+                        const Vector3d& gravity, State& state) {
+    const Eigen::Index q = body.position_offset;
+    const Eigen::Index w = body.velocity_offset;
+    const Vector3d change = time_step * gravity;
+    for (int i = 0; i < 3; ++i) {
+      const double mean =
+          state.velocity.value(w + i) +
+          (state.velocity.compensation(w + i) + 0.5 * change(i));
+      const SumAndError product = TwoProduct(time_step, mean);
+      AddCompensated(product.sum, product.error, state.position.value(q + i),
+                     state.position.compensation(q + i));
+    }
+    state.velocity.Add(w, change);
   }
 
   // What does not converge leaves the state, in one call too.
