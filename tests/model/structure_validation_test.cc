@@ -14,6 +14,7 @@
 
 #include "emmy/model/model_builder.h"
 #include "tests/support/paper_box.h"
+#include "tests/support/structures.h"
 
 namespace emmy {
 namespace {
@@ -24,33 +25,14 @@ using ::testing::StartsWith;
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
-NodeDescription Node(const std::string& name, const Vector3d& position,
-                     double mass = 1.0) {
-  NodeDescription node;
-  node.name = name;
-  node.position = position;
-  node.mass = mass;
-  return node;
-}
-
-TrussDescription Truss(const PointDescription& first,
-                       const PointDescription& second) {
-  TrussDescription truss;
-  truss.name = "truss";
-  truss.ends = {first, second};
-  truss.area = 1e-4;
-  truss.density = 2700.0;
-  truss.young_modulus = 7e10;
-  return truss;
-}
-
 // A resting box and two nodes with mass, joined by a truss.
 ModelDescription Sound() {
   RigidBodyDescription box = PaperBox();
   box.angular_velocity.setZero();
   ModelDescription model = ModelOf(box);
-  model.nodes = {Node("a", {2.0, 0.0, 0.0}), Node("b", {3.0, 0.0, 0.0})};
-  model.trusses = {Truss(NodePoint{"a"}, NodePoint{"b"})};
+  model.nodes = {TestNode("a", 1.0, {2.0, 0.0, 0.0}),
+                 TestNode("b", 1.0, {3.0, 0.0, 0.0})};
+  model.trusses = {TestTruss("truss", NodePoint{"a"}, NodePoint{"b"})};
   return model;
 }
 
@@ -139,7 +121,7 @@ INSTANTIATE_TEST_SUITE_P(
                 "/nodes/0/velocity: ", "zero for a fixed node"},
         Mistake{"MasslessNodeAlone",
                 [](auto& m) {
-                  m.nodes.push_back(Node("c", {9.0, 9.0, 9.0}, 0.0));
+                  m.nodes.push_back(TestNode("c", 0.0, {9.0, 9.0, 9.0}));
                 },
                 "/nodes/2: node \"c\"",
                 "must have mass or be attached to something, got neither"},
@@ -215,7 +197,7 @@ TEST(SharedPointTest, AnInconsistentThirdPointIsRejectedWithTheGap) {
 TEST(SharedPointTest, AGapThroughAChainOfNodesIsFound) {
   ModelDescription model = TwoBoxes();
   model.shared_points.clear();
-  NodeDescription node = Node("pin", {1.5, 0.0, 0.0}, 0.0);
+  NodeDescription node = TestNode("pin", 0.0, {1.5, 0.0, 0.0});
   model.nodes.push_back(node);
   node.name = "other";
   model.nodes.push_back(node);
@@ -295,7 +277,7 @@ TEST(SharedPointTest, OfAConventionalAndAnAncfBodyIsNotSupportedAndSaysSo) {
 
 TEST(SharedPointTest, ANodeOnAConventionalBodyMustBeMassless) {
   ModelDescription model = TwoBoxes(Formulation::kConventional);
-  model.nodes.push_back(Node("pin", {1.5, 0.0, 0.0}, 0.0));
+  model.nodes.push_back(TestNode("pin", 0.0, {1.5, 0.0, 0.0}));
   model.nodes[0].velocity = MovesWith{"box"};
   model.shared_points = {
       {NodePoint{"pin"}, BodyPoint{"box", {1.5, 0.0, 0.0}}},
