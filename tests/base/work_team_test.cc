@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <stdexcept>
 #include <vector>
 
 namespace emmy {
@@ -23,6 +25,26 @@ TEST(WorkTeamTest, EveryItemIsDoneOnceInEveryRun) {
       EXPECT_EQ(times, std::vector<int>(count, 50)) << size;
       EXPECT_EQ(calls, std::vector<int>(size, 50)) << size;
     }
+  }
+}
+
+// The others end their work before it is thrown on; the team works on.
+TEST(WorkTeamTest, WhatAMemberThrowsComesToTheCallerWhenAllAreDone) {
+  WorkTeam team(4);
+  for (const size_t thrower : {0U, 3U}) {
+    std::vector<int> times(4000, 0);
+    const auto work = [&](size_t member, size_t first, size_t last) {
+      if (member == thrower) throw std::runtime_error("full");
+      for (size_t i = first; i < last; ++i) ++times[i];
+    };
+    EXPECT_THROW(team.Run(times.size(), work), std::runtime_error);
+    std::vector<int> expected(4000, 1);
+    std::fill_n(expected.begin() + 1000 * static_cast<int>(thrower), 1000, 0);
+    EXPECT_EQ(times, expected) << thrower;
+    team.Run(times.size(), [&](size_t, size_t first, size_t last) {
+      for (size_t i = first; i < last; ++i) times[i] = 7;
+    });
+    EXPECT_EQ(times, std::vector<int>(4000, 7));
   }
 }
 

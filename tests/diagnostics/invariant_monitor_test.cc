@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <limits>
+
 #include "emmy/model/model_builder.h"
 #include "tests/support/paper_box.h"
 
@@ -38,6 +41,15 @@ TEST_F(InvariantMonitorTest, StartsWithoutError) {
   EXPECT_EQ(monitor.energy().max_relative_error(), 0.0);
   EXPECT_EQ(monitor.momentum().initial, Vector3d(16200.0, 0.0, 0.0));
   EXPECT_EQ(monitor.angular_momentum().initial, Vector3d(0.0, 0.0, -32400.0));
+}
+
+TEST_F(InvariantMonitorTest, AStateThatIsNotFiniteIsNotForgotten) {
+  InvariantMonitor monitor(built_.model, built_.state);
+  monitor.Observe(WithVelocity(std::numeric_limits<double>::quiet_NaN()));
+  monitor.Observe(WithVelocity(1.0));
+  EXPECT_TRUE(std::isnan(monitor.energy().max_relative_error()));
+  EXPECT_TRUE(std::isnan(monitor.momentum().max_relative_error()));
+  EXPECT_TRUE(std::isnan(monitor.angular_momentum().max_relative_error()));
 }
 
 TEST_F(InvariantMonitorTest, GoesOnAsIfItHadNeverStopped) {

@@ -27,15 +27,23 @@ class IntegratorOptionsTest : public ::testing::Test {
 };
 
 TEST_F(IntegratorOptionsTest, ATimeStepHasToBeGiven) {
-  EXPECT_EQ(Message({}),
-            "/integrator/time_step: must be a finite number > 0 [s], got 0");
+  EXPECT_EQ(
+      Message({}),
+      "/integrator/time_step: must be a finite number other than 0 [s], got 0");
 }
 
 TEST_F(IntegratorOptionsTest, ATimeStepIsFinite) {
   EXPECT_EQ(Message({.time_step = kNan}),
-            "/integrator/time_step: must be a finite number > 0 [s], got nan");
+            "/integrator/time_step: must be a finite number other than 0 [s], "
+            "got nan");
   EXPECT_EQ(Message({.time_step = kInfinity}),
-            "/integrator/time_step: must be a finite number > 0 [s], got inf");
+            "/integrator/time_step: must be a finite number other than 0 [s], "
+            "got inf");
+}
+
+TEST_F(IntegratorOptionsTest, ThereIsAnIterationAtLeast) {
+  EXPECT_EQ(Message({.time_step = 1e-3, .max_iterations = 0}),
+            "/integrator/max_iterations: must be at least 1, got 0");
 }
 
 TEST_F(IntegratorOptionsTest, ATimeStepMayGoBack) {

@@ -140,6 +140,19 @@ INSTANTIATE_TEST_SUITE_P(
         Kind{"Hinges", [] { return Hinges(6); }}),
     [](const auto& kind) { return std::string(kind.param.name); });
 
+// A start at rest has no energy to compare the residual's work with: it is that
+// of the weight in the step.
+TEST(JointStepRestTest, AStartFromRestTakesNoSystemOfAllCoordinates) {
+  for (const ModelDescription& model :
+       {HangingChain(9, /*both_ends=*/false), Held(Chain(10)),
+        Held(verification::BoxTree(11).model),
+        Held(verification::BoxGrid(4).model)}) {
+    TestRun run(model, 1e-3);
+    ASSERT_TRUE(run.Advance(1));
+    EXPECT_EQ(run.num_factorizations(), 1);
+  }
+}
+
 TEST(JointStepAllocationTest, AChainAllocatesNothing) {
   TestRun run(Chain(20), 1e-3);
   ASSERT_TRUE(run.Advance(3));

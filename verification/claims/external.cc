@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "absl/strings/str_format.h"
+#include "emmy/base/larger.h"
 #include "emmy/numerics/rotation.h"
 #include "emmy/numerics/unit_roundoff.h"
 #include "verification/claims/groups.h"
@@ -180,9 +181,10 @@ absl::StatusOr<ClaimResult> Positions(const ClaimSetting& setting) {
             (body.position.cwiseAbs() + t * body.velocity.cwiseAbs() +
              (0.5 * t * t) * body.gravity.cwiseAbs())
                 .maxCoeff();
-        worst = std::max(
-            worst, (run->Motion().position - exact).cwiseAbs().maxCoeff() /
-                       (kUnitRoundoff * scale));
+        worst = Larger(worst, (run->Motion().position - exact)
+                                      .cwiseAbs()
+                                      .maxCoeff<Eigen::PropagateNaN>() /
+                                  (kUnitRoundoff * scale));
       }
       result.values.push_back({named.name, worst});
     }

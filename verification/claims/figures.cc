@@ -5,6 +5,7 @@
 
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_format.h"
+#include "emmy/base/larger.h"
 #include "emmy/diagnostics/invariants.h"
 #include "verification/claims/groups.h"
 #include "verification/figures/energy_error_figure.h"
@@ -37,9 +38,7 @@ double LargestDifference(const std::vector<double>& a,
                          const std::vector<double>& b) {
   double largest = 0.0;
   for (size_t i = 0; i < a.size(); ++i) {
-    const double difference = std::abs(a[i] - b[i]);
-    // Written so that NaN stays.
-    if (!(difference <= largest)) largest = difference;
+    largest = Larger(largest, std::abs(a[i] - b[i]));
   }
   return largest;
 }
@@ -51,7 +50,7 @@ std::vector<double> LargestByInterval(const std::vector<double>& a,
   std::vector<double> largest = {std::abs(a[0] - b[0])};
   for (size_t i = 1; i < a.size(); ++i) {
     if (i % kFigure5Every == 1) largest.push_back(0.0);
-    largest.back() = std::max(largest.back(), std::abs(a[i] - b[i]));
+    largest.back() = Larger(largest.back(), std::abs(a[i] - b[i]));
   }
   return largest;
 }
@@ -184,7 +183,7 @@ absl::StatusOr<EnergyHistory> InternalEnergy(const PaperModel& model,
         MeasureInvariants(advanced.model(), advanced.state());
     const DoubleDouble internal = now.InternalEnergy();
     const double error = (internal - start).ToDouble() / start.ToDouble();
-    history.largest_error = std::max(history.largest_error, std::abs(error));
+    history.largest_error = Larger(history.largest_error, std::abs(error));
     const auto every = std::llround(reading / time_step);
     if (advanced.state().step % every != 0) return;
     history.internal.push_back(1e-3 * internal.ToDouble());

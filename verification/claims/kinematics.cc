@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <utility>
 
+#include "emmy/base/larger.h"
 #include "emmy/diagnostics/angular_velocity.h"
 #include "emmy/diagnostics/invariants.h"
 #include "emmy/diagnostics/structure_motion.h"
@@ -17,7 +18,6 @@
 #include "emmy/numerics/unit_roundoff.h"
 #include "verification/claims/groups.h"
 #include "verification/claims/long_double.h"
-#include "verification/runs/larger.h"
 #include "verification/runs/paper_box.h"
 
 namespace emmy::verification {

@@ -9,6 +9,7 @@
 
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_format.h"
+#include "emmy/base/larger.h"
 #include "emmy/diagnostics/extended_state.h"
 #include "emmy/diagnostics/invariants.h"
 #include "emmy/element/line_element.h"
@@ -19,7 +20,6 @@
 #include "verification/claims/groups.h"
 #include "verification/claims/long_double.h"
 #include "verification/exact/free_rigid_body.h"
-#include "verification/runs/larger.h"
 #include "verification/runs/paper_box.h"
 #include "verification/runs/run.h"
 

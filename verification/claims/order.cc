@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "absl/strings/str_format.h"
+#include "emmy/base/larger.h"
 #include "verification/claims/groups.h"
 #include "verification/runs/fit.h"
 #include "verification/runs/motion_error.h"
@@ -95,9 +96,10 @@ absl::StatusOr<ClaimResult> Floor(const ClaimSetting& setting) {
     }
     const BodyMotion a = soft->Motion();
     const BodyMotion b = stiff->Motion();
-    omega = std::max(omega,
-                     (a.omega_locked - b.omega_locked).cwiseAbs().maxCoeff());
-    attitude = std::max(attitude, AngleBetween(a.quaternion, b.quaternion));
+    omega = Larger(omega, (a.omega_locked - b.omega_locked)
+                              .cwiseAbs()
+                              .maxCoeff<Eigen::PropagateNaN>());
+    attitude = Larger(attitude, AngleBetween(a.quaternion, b.quaternion));
   }
   const absl::StatusOr<MotionError> error =
       CompareWithExact(PaperBoxAncf(kPenalty, Start::kRelaxed),

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "absl/strings/str_format.h"
+#include "emmy/base/larger.h"
 #include "verification/claims/groups.h"
 #include "verification/runs/fit.h"
 #include "verification/runs/paper_box.h"
@@ -40,7 +41,8 @@ absl::StatusOr<double> OmegaError(double penalty, Start start, Select select,
   const absl::Status status = run->Advance(kSteps, [&](const Run& advanced) {
     const auto step = static_cast<size_t>(advanced.state().step);
     const Vector3d difference = advanced.Motion().*select - reference[step - 1];
-    error = std::max(error, difference.cwiseAbs().maxCoeff());
+    error =
+        Larger(error, difference.cwiseAbs().maxCoeff<Eigen::PropagateNaN>());
   });
   if (!status.ok()) return status;
   return error;

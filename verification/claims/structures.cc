@@ -9,6 +9,7 @@
 
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_format.h"
+#include "emmy/base/larger.h"
 #include "emmy/diagnostics/extended_state.h"
 #include "emmy/diagnostics/invariant_monitor.h"
 #include "verification/claims/groups.h"
@@ -74,8 +75,9 @@ absl::StatusOr<std::vector<double>> LockedErrors(
     if (!omega.ok()) return omega.status();
     double error = 0.0;
     for (size_t i = 0; i < omega->size(); ++i) {
-      error = std::max(error,
-                       ((*omega)[i] - (*reference)[i]).cwiseAbs().maxCoeff());
+      error = Larger(error, ((*omega)[i] - (*reference)[i])
+                                .cwiseAbs()
+                                .maxCoeff<Eigen::PropagateNaN>());
     }
     errors.push_back(error);
   }

@@ -7,10 +7,10 @@
 #include <utility>
 
 #include "absl/strings/str_format.h"
+#include "emmy/base/larger.h"
 #include "emmy/element/relaxed_start.h"
 #include "verification/claims/groups.h"
 #include "verification/runs/fit.h"
-#include "verification/runs/larger.h"
 #include "verification/runs/paper_box.h"
 #include "verification/runs/run.h"
 

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "emmy/base/larger.h"
 #include "emmy/model/model_builder.h"
 #include "emmy/numerics/rotation.h"
 #include "verification/exact/free_rigid_body.h"
-#include "verification/runs/larger.h"
 #include "verification/runs/paper_box.h"
 #include "verification/runs/run.h"
 

@@ -1,6 +1,7 @@
 #include "emmy/base/work_team.h"
 
 #include <system_error>
+#include <utility>
 
 namespace emmy {
 
@@ -21,9 +22,14 @@ WorkTeam::~WorkTeam() {
   for (std::thread& thread : others_) thread.join();
 }
 
-void WorkTeam::RunMember(size_t member) const {
-  call_(target_, member, count_ * member / size(),
-        count_ * (member + 1) / size());
+void WorkTeam::RunMember(size_t member) {
+  try {
+    call_(target_, member, count_ * member / size(),
+          count_ * (member + 1) / size());
+  } catch (...) {
+    // The work is on the caller's stack, which has to stay until all are done.
+    if (!has_failed_.exchange(true)) failure_ = std::current_exception();
+  }
 }
 
 void WorkTeam::RunCall() {
@@ -34,6 +40,10 @@ void WorkTeam::RunCall() {
   }
   RunMember(0);
   for (size_t busy = busy_; busy != 0; busy = busy_) busy_.wait(busy);
+  if (has_failed_) {
+    has_failed_ = false;
+    std::rethrow_exception(std::exchange(failure_, nullptr));
+  }
 }
 
 void WorkTeam::Serve(size_t member) {

@@ -7,6 +7,7 @@
 
 #include <atomic>
 #include <cstddef>
+#include <exception>
 #include <thread>
 #include <vector>
 
@@ -24,7 +25,8 @@ class WorkTeam {
   size_t size() const { return others_.size() + 1; }
 
   // Calls work(member, first, last) once a member, the ranges of which are
-  // [0, count) together, and returns when all are done.
+  // [0, count) together, and returns when all are done. What one of them
+  // throws (an allocation may fail) is thrown on then; the first, if several.
   template <typename Work>
   void Run(size_t count, const Work& work) {
     call_ = [](const void* target, size_t member, size_t first, size_t last) {
@@ -37,7 +39,7 @@ class WorkTeam {
 
  private:
   void RunCall();
-  void RunMember(size_t member) const;
+  void RunMember(size_t member);
   void Serve(size_t member);
 
   void (*call_)(const void* target, size_t member, size_t first,
@@ -47,6 +49,8 @@ class WorkTeam {
   std::atomic<size_t> run_ = 0;  // Changes when there is work, or an end.
   std::atomic<size_t> busy_ = 0;
   bool ends_ = false;
+  std::atomic<bool> has_failed_ = false;
+  std::exception_ptr failure_;
   std::vector<std::thread> others_;
 };
 

@@ -3,15 +3,16 @@
 #include <algorithm>
 #include <cmath>
 
+#include "emmy/base/larger.h"
+
 namespace emmy {
 namespace {
 
 void Record(const DoubleDouble3& initial, const DoubleDouble3& now,
             MomentumRecord* record) {
   record->final = now.ToDouble();
-  record->max_error =
-      std::max(record->max_error, Norm(now - initial).ToDouble());
-  record->scale = std::max(record->scale, record->final.norm());
+  record->max_error = Larger(record->max_error, Norm(now - initial).ToDouble());
+  record->scale = Larger(record->scale, record->final.norm());
 }
 
 }  // namespace
@@ -49,10 +50,10 @@ void InvariantMonitor::Observe(const State& state) {
   latest_ = MeasureInvariants(*model_, state);
   const DoubleDouble total = latest_.TotalEnergy();
   energy_.final = total.ToDouble();
-  energy_.max_error = std::max(
+  energy_.max_error = Larger(
       energy_.max_error, std::abs((total - initial_.TotalEnergy()).ToDouble()));
   energy_.scale =
-      std::max(energy_.scale, std::abs(latest_.InternalEnergy().ToDouble()));
+      Larger(energy_.scale, std::abs(latest_.InternalEnergy().ToDouble()));
   Record(initial_.momentum, latest_.momentum, &momentum_);
   Record(initial_.angular_momentum, latest_.angular_momentum,
          &angular_momentum_);

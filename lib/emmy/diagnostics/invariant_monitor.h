@@ -34,9 +34,9 @@ struct EnergyRecord {
   double scale = 0.0;
   bool conserved = true;
 
-  // Zero if both error and scale are zero.
+  // Zero if both error and scale are zero, NaN if a state was not finite.
   double max_relative_error() const {
-    return max_error > 0.0 ? max_error / scale : 0.0;
+    return max_error == 0.0 ? 0.0 : max_error / scale;
   }
 };
 
@@ -48,7 +48,7 @@ struct MomentumRecord {
   bool conserved = true;
 
   double max_relative_error() const {
-    return max_error > 0.0 ? max_error / scale : 0.0;
+    return max_error == 0.0 ? 0.0 : max_error / scale;
   }
 };
 

@@ -213,6 +213,10 @@ absl::StatusOr<BodyBatch> BodyBatch::Create(const Model& model,
                      "got ",
                      options.time_step));
   }
+  if (options.max_iterations < 1) {
+    return absl::InvalidArgumentError(absl::StrCat(
+        "max_iterations: must be at least 1, got ", options.max_iterations));
+  }
   if (options.num_threads < 1) {
     return absl::InvalidArgumentError(absl::StrCat(
         "num_threads: must be at least 1, got ", options.num_threads));

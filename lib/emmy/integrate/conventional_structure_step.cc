@@ -46,15 +46,12 @@ int ConventionalStructureStep::LocalBody(size_t index) {
 
 absl::StatusOr<int> ConventionalStructureStep::LocalNode(int vector) {
   const auto v = static_cast<size_t>(vector);
-  for (const ModelBody& body : model_->bodies()) {
-    if (body.ancf() != nullptr && vector >= body.first_vector &&
-        vector < body.first_vector + 4) {
-      return absl::UnimplementedError(absl::StrCat(
-          "/rigid_bodies: body \"", body.name,
-          "\" of formulation \"ancf\" is joined to a conventional body by "
-          "trusses or springs; structures that mix the two are not supported "
-          "yet"));
-    }
+  if (const ModelBody* const body = owner_[v]; body != nullptr) {
+    return absl::UnimplementedError(absl::StrCat(
+        "/rigid_bodies: body \"", body->name,
+        "\" of formulation \"ancf\" is joined to a conventional body by "
+        "trusses or springs; structures that mix the two are not supported "
+        "yet"));
   }
   int& local = local_node_[v];
   if (local < 0) {
@@ -83,6 +80,11 @@ ConventionalStructureStep::MakeEnd(const Point& point) {
 absl::Status ConventionalStructureStep::Gather() {
   local_body_.assign(model_->bodies().size(), -1);
   local_node_.assign(model_->vectors().size(), -1);
+  owner_.assign(model_->vectors().size(), nullptr);
+  for (const ModelBody& body : model_->bodies()) {
+    if (body.ancf() == nullptr) continue;
+    std::fill_n(owner_.begin() + body.first_vector, 4, &body);
+  }
   absl::Status status = GatherLines();
   if (!status.ok()) return status;
   GatherMasses();
@@ -93,7 +95,9 @@ absl::Status ConventionalStructureStep::Gather() {
   for (VectorXd* v : {&unknown_, &residual_, &magnitude_, &correction_}) {
     v->setZero(3 * static_cast<Index>(NumBlocks()));
   }
-  if (joints_.empty()) {
+  // Up to here a dense factor costs less than to look after a sparse one.
+  constexpr int kLargestDense = 16;
+  if (joints_.empty() && NumBlocks() <= kLargestDense) {
     tangent_.MakeDense(NumBlocks());
   } else {
     MakePattern();
@@ -103,29 +107,33 @@ absl::Status ConventionalStructureStep::Gather() {
 
 // Lines at conventional bodies, then all that hang together with them.
 absl::Status ConventionalStructureStep::GatherLines() {
-  std::vector<bool> taken(model_->lines().size(), false);
-  bool found = true;
-  while (found) {
-    found = false;
-    for (size_t i = 0; i < model_->lines().size(); ++i) {
-      const ModelLine& line = model_->lines()[i];
-      const auto is_local = [this](const Point& end) {
-        return !end.terms.empty() &&
-               local_node_[static_cast<size_t>(end.terms.front().vector)] >= 0;
-      };
-      if (taken[i] || !(line.has_conventional_end() || is_local(line.ends[0]) ||
-                        is_local(line.ends[1]))) {
-        continue;
+  std::vector<std::vector<size_t>> at_vector(model_->vectors().size());
+  std::vector<size_t> found;
+  for (size_t i = 0; i < model_->lines().size(); ++i) {
+    const ModelLine& line = model_->lines()[i];
+    if (line.has_conventional_end()) found.push_back(i);
+    for (const Point& end : line.ends) {
+      for (const WeightedVector& term : end.terms) {
+        at_vector[static_cast<size_t>(term.vector)].push_back(i);
       }
-      taken[i] = true;
-      found = true;
-      Line& local = lines_.emplace_back();
-      local.line = &line;
-      for (size_t e = 0; e < 2; ++e) {
-        absl::StatusOr<End> end = MakeEnd(line.ends[e]);
-        if (!end.ok()) return end.status();
-        local.ends[e] = *end;
-        local.ends[e].velocity_offset = line.end_velocity_offset[e];
+    }
+  }
+  std::vector<bool> taken(model_->lines().size(), false);
+  for (size_t next = 0; next < found.size(); ++next) {
+    const size_t i = found[next];
+    if (taken[i]) continue;
+    taken[i] = true;
+    const ModelLine& line = model_->lines()[i];
+    Line& local = lines_.emplace_back();
+    local.line = &line;
+    for (size_t e = 0; e < 2; ++e) {
+      absl::StatusOr<End> end = MakeEnd(line.ends[e]);
+      if (!end.ok()) return end.status();
+      local.ends[e] = *end;
+      local.ends[e].velocity_offset = line.end_velocity_offset[e];
+      for (const WeightedVector& term : line.ends[e].terms) {
+        const auto& others = at_vector[static_cast<size_t>(term.vector)];
+        found.insert(found.end(), others.begin(), others.end());
       }
     }
   }
@@ -418,6 +426,45 @@ bool ConventionalStructureStep::FormTangent() {
   return tangent_.Factorize();
 }
 
+// What rounding may do: the largest rate, with that of the start, as w₀ and ½Δw
+// may cancel; and by each term's size, that of the work and of the moment.
+ConventionalStructureStep::Scale ConventionalStructureStep::Scales() const {
+  Scale scale;
+  const auto add = [&scale](double magnitude, double arm, double rate) {
+    const double squared = magnitude * magnitude;
+    scale.work += squared * (rate * rate);
+    scale.moment += squared * (arm * arm);
+  };
+  const auto largest = [](const Vector3d& v) {
+    return v.cwiseAbs().maxCoeff();
+  };
+  for (size_t i = 0; i < bodies_.size(); ++i) {
+    const Body& body = bodies_[i];
+    const Index row = BodyRow(static_cast<int>(i));
+    add(magnitude_.segment<3>(row).norm(), body.x0.norm(),
+        body.mean_velocity.norm());
+    add(magnitude_.segment<3>(row + 3).norm(), 1.0, body.mean_omega.norm());
+    scale.rate =
+        std::max({scale.rate, largest(body.v0), largest(body.mean_velocity),
+                  largest(body.w0), largest(body.mean_omega)});
+    // What the rounding of a joint's rate may do to W.
+    if (!joints_.empty()) {
+      scale.rate =
+          std::max(scale.rate, 0.5 * body.mean_velocity.norm() / body.gyration);
+    }
+  }
+  for (size_t i = 0; i < nodes_.size(); ++i) {
+    const Node& node = nodes_[i];
+    add(magnitude_.segment<3>(NodeRow(static_cast<int>(i))).norm(),
+        node.q0.norm(), node.mean_rate.norm());
+    scale.rate =
+        std::max({scale.rate, largest(node.w0), largest(node.mean_rate)});
+  }
+  scale.work = std::sqrt(scale.work);
+  scale.moment = std::sqrt(scale.moment);
+  return scale;
+}
+
 // Σ r·w̄, which is the energy a residual puts in (EM-7).
 double ConventionalStructureStep::Work() const {
   double work = 0.0;
@@ -471,21 +518,7 @@ BodyStepResult ConventionalStructureStep::Iterate(bool damped) {
       return result;
     }
     previous = i == 1 ? previous : result.correction;
-    double rate = 0.0;
-    double size = 0.0;
-    for (const Body& body : bodies_) {
-      rate = std::max({rate, body.mean_velocity.cwiseAbs().maxCoeff(),
-                       body.mean_omega.cwiseAbs().maxCoeff()});
-      size = std::max(size, body.x0.norm());
-      // What the rounding of a joint's rate may do to W.
-      if (!joints_.empty()) {
-        rate = std::max(rate, 0.5 * body.mean_velocity.norm() / body.gyration);
-      }
-    }
-    for (const Node& node : nodes_) {
-      rate = std::max(rate, node.mean_rate.cwiseAbs().maxCoeff());
-      size = std::max(size, node.q0.norm());
-    }
+    const Scale scale = Scales();
     const double work = std::abs(Work());
     const double moment = Moment().cwiseAbs().maxCoeff();
     tangent_.Solve(residual_, &correction_);
@@ -500,18 +533,18 @@ BodyStepResult ConventionalStructureStep::Iterate(bool damped) {
       return result;
     }
     if (options_.tolerance.has_value()) {
-      if (result.correction <= *options_.tolerance * rate) {
+      if (result.correction <= *options_.tolerance * scale.rate) {
         result.termination = Termination::kConverged;
         return result;
       }
       continue;
     }
-    const double residual_floor = kUnitRoundoff * magnitude_.norm();
-    const bool rate_done =
-        rate_monitor.Update(result.correction, 4.0 * kUnitRoundoff * rate);
-    const bool work_done = work_monitor.Update(work, residual_floor * rate);
+    const bool rate_done = rate_monitor.Update(
+        result.correction, 4.0 * kUnitRoundoff * scale.rate);
+    const bool work_done =
+        work_monitor.Update(work, kUnitRoundoff * scale.work);
     const bool moment_done =
-        moment_monitor.Update(moment, residual_floor * std::max(1.0, size));
+        moment_monitor.Update(moment, kUnitRoundoff * scale.moment);
     if (rate_done) ++settled;
     if (rate_done &&
         ((work_done && moment_done) || settled > kStagnationPatience)) {

@@ -125,6 +125,11 @@ class ConventionalStructureStep {
     int body = 0;
     Vector3d torque;
   };
+  struct Scale {
+    double rate = 0.0;
+    double work = 0.0;
+    double moment = 0.0;
+  };
   using Index = Eigen::Index;
 
   ConventionalStructureStep(const Model& model, double time_step,
@@ -167,6 +172,7 @@ class ConventionalStructureStep {
   void EvaluateLine(Line* line);
   bool FormTangent();
   BodyStepResult Iterate(bool damped);
+  Scale Scales() const;
   double Work() const;
   Vector3d Moment() const;
   void AddToTangent(const End& first, const End& second,
@@ -188,8 +194,9 @@ class ConventionalStructureStep {
   const Model* model_;
   double time_step_;
   NewtonOptions options_;
-  std::vector<int> local_body_;  // By index of the model.
-  std::vector<int> local_node_;  // By vector coordinate.
+  std::vector<int> local_body_;          // By index of the model.
+  std::vector<int> local_node_;          // By vector coordinate.
+  std::vector<const ModelBody*> owner_;  // ANCF body of a vector coordinate.
   std::vector<Body> bodies_;
   std::vector<Node> nodes_;
   std::vector<Line> lines_;

@@ -18,8 +18,13 @@ absl::StatusOr<EnergyMomentumIntegrator> EnergyMomentumIntegrator::Create(
                       std::to_string(options.order));
   }
   if (!std::isfinite(options.time_step) || options.time_step == 0.0) {
-    return FieldError("/integrator/time_step", "a finite number > 0 [s]",
+    return FieldError("/integrator/time_step",
+                      "a finite number other than 0 [s]",
                       NumberText(options.time_step));
+  }
+  if (options.max_iterations < 1) {
+    return FieldError("/integrator/max_iterations", "at least 1",
+                      std::to_string(options.max_iterations));
   }
   if (options.tolerance.has_value() &&
       !(*options.tolerance > 0.0 && *options.tolerance < 1.0)) {

@@ -281,13 +281,14 @@ HWY_INLINE void GetRateIncrement(const double* iterate, V3* dw) {
 
 struct Sums {
   V3 force, moment;
-  V work, force_size, moment_size, work_size, rate, energy, load_work;
+  V work, force_size, moment_size, work_size, rate, energy, weight_work,
+      load_work;
 };
 
 template <ForwardWork kWork>
 HWY_INLINE void AddSums(const double* constants, const double* start,
                         const Motion& m, const V3* residual, const V* magnitude,
-                        const V3* load, Sums* sums) {
+                        const V3& weight, Sums* sums) {
   using C = BodyConstants;
   using B = BodyStartBlock;
   sums->force = Plus(sums->force, residual[0]);
@@ -304,6 +305,10 @@ HWY_INLINE void AddSums(const double* constants, const double* start,
       const V3 w0 = Get3(start, B::kVelocity + 3 * a);
       sums->rate = hn::Max(sums->rate, hn::Max(MaxAbs(w0), MaxAbs(m.rate[a])));
     }
+    for (int i = 0; i < 3; ++i) {
+      sums->weight_work =
+          sums->weight_work + hn::Abs(weight.v[i]) * hn::Abs(m.rate[0].v[i]);
+    }
   }
   if constexpr (kWork == ForwardWork::kFactorize) {
     const V half = hn::Set(Tag(), 0.5);
@@ -318,12 +323,6 @@ HWY_INLINE void AddSums(const double* constants, const double* start,
       energy = energy + Get(constants, C::kStiffness + k) * (strain * strain);
     }
     sums->energy = sums->energy + half * energy;
-    for (int a = 0; a < 4; ++a) {
-      for (int i = 0; i < 3; ++i) {
-        sums->load_work = sums->load_work +
-                          hn::Abs(load[a].v[i]) * hn::Abs(m.increment[a].v[i]);
-      }
-    }
   }
 }
 
@@ -417,12 +416,12 @@ HWY_INLINE void Forward(const ChainGroup& g, int lane) {
   const V quarter = hn::Set(tag, 0.25);
   const V quarter_time = hn::Set(tag, 0.25 * g.time_step * g.time_step);
   const V two = hn::Set(tag, 2.0);
-  const V per_time = hn::Set(tag, 1.0 / g.time_step);
   const V shift = hn::Set(tag, g.shift);
   const V zero = hn::Zero(tag);
   double* const piece = g.piece + lane;
 
-  Sums sums = {Zero3(), Zero3(), zero, zero, zero, zero, zero, zero, zero};
+  Sums sums = {Zero3(), Zero3(), zero, zero, zero,
+               zero,    zero,    zero, zero, zero};
   V3 left_impulse = Get3(piece, P::kLeftImpulse);
   // Of the joint on the left: what the body before gave, and what eliminating
   // the joint before that took away.
@@ -473,12 +472,11 @@ HWY_INLINE void Forward(const ChainGroup& g, int lane) {
     if constexpr (kSizes) {
       for (int a = 0; a < 4; ++a) magnitude[a] = MaxAbs(residual[a]);
     }
-    // Weight and loads: impulses, and per time for their work.
-    V3 load[4] = {Zero3(), Zero3(), Zero3(), Zero3()};
+    // Impulses of weight and loads.
     V3 weight;
     for (int i = 0; i < 3; ++i) {
-      load[0].v[i] = Get(constants, C::kMass) * hn::Set(tag, g.gravity[i]);
-      weight.v[i] = dt * load[0].v[i];
+      weight.v[i] =
+          dt * (Get(constants, C::kMass) * hn::Set(tag, g.gravity[i]));
     }
     residual[0] = Minus(residual[0], weight);
     if (g.loads != nullptr) {
@@ -489,7 +487,7 @@ HWY_INLINE void Forward(const ChainGroup& g, int lane) {
         residual[a] = Minus(residual[a], impulse_a);
         if constexpr (kSizes) {
           magnitude[a] = magnitude[a] + MaxAbs(impulse_a);
-          load[a] = Plus(load[a], Times(per_time, impulse_a));
+          sums.load_work = sums.load_work + Dot(m.rate[a], impulse_a);
         }
       }
     }
@@ -539,7 +537,7 @@ HWY_INLINE void Forward(const ChainGroup& g, int lane) {
                                        hn::Abs(right[a]) * right_size);
       }
     }
-    AddSums<kWork>(constants, start, m, residual, magnitude, load, &sums);
+    AddSums<kWork>(constants, start, m, residual, magnitude, weight, &sums);
     left_impulse = impulse;
 
     // u = K⁻¹ r.
@@ -664,10 +662,7 @@ HWY_INLINE void Forward(const ChainGroup& g, int lane) {
     PutMatrix(end_column, piece, P::kBelow);
     PutMatrix(end_row, piece, P::kAbove);
   }
-  if constexpr (kFactorize) {
-    Put(sums.energy, piece, P::kEnergy);
-    Put(sums.load_work, piece, P::kLoadWork);
-  }
+  if constexpr (kFactorize) Put(sums.energy, piece, P::kEnergy);
   Put3(sums.force, piece, P::kForce);
   Put3(sums.moment, piece, P::kMoment);
   Put(sums.work, piece, P::kWork);
@@ -676,6 +671,8 @@ HWY_INLINE void Forward(const ChainGroup& g, int lane) {
     Put(sums.moment_size, piece, P::kMomentSize);
     Put(sums.work_size, piece, P::kWorkSize);
     Put(sums.rate, piece, P::kRate);
+    Put(sums.weight_work, piece, P::kWeightWork);
+    Put(sums.load_work, piece, P::kLoadWork);
   }
 }
 

@@ -135,11 +135,13 @@ struct PieceBlock {
   static constexpr int kWorkSize = 72;    // with rate.
   static constexpr int kRate = 73;        // Largest |w₀|, |w̄|.
   static constexpr int kEnergy = 74;      // Of the start.
-  static constexpr int kLoadWork = 75;    // Of the weight, in absolute value.
+  static constexpr int kWeightWork = 75;  // In absolute value.
+  static constexpr int kLoadWork = 76;    // Of the loads, signed: the joints'
+                                          // share of them cancels.
   // Written by Backward.
-  static constexpr int kCorrection = 76;     // Largest |δw|.
-  static constexpr int kCorrectionSum = 77;  // Not finite if one is not.
-  static constexpr int kSize = 78;
+  static constexpr int kCorrection = 77;     // Largest |δw|.
+  static constexpr int kCorrectionSum = 78;  // Not finite if one is not.
+  static constexpr int kSize = 79;
 };
 
 // Of one group: arrays of `length` packs.

@@ -29,6 +29,23 @@ ForwardWork WorkOf(int iteration) {
                                       : ForwardWork::kResidual;
 }
 
+// A body couples each of its joints with each other: a net whose couplings are
+// many times its joints, as of a thousand bodies on one plate, is better solved
+// by all coordinates.
+bool HasCrowdedBodies(const Structure& structure,
+                      const std::vector<BodyJoint>& joints) {
+  constexpr int64_t kLargestMean = 64;
+  std::vector<int64_t> at_body(structure.bodies.size(), 0);
+  for (const BodyJoint& joint : joints) {
+    for (const int body : joint.bodies) {
+      if (body >= 0) ++at_body[static_cast<size_t>(body)];
+    }
+  }
+  int64_t couplings = 0;
+  for (const int64_t count : at_body) couplings += count * count;
+  return couplings > kLargestMean * static_cast<int64_t>(joints.size());
+}
+
 double MaxAbs(const Vector3d& v) { return v.cwiseAbs().maxCoeff(); }
 
 }  // namespace
@@ -42,7 +59,7 @@ std::unique_ptr<JointStep> JointStep::Create(const Structure& structure,
     return nullptr;
   }
   const std::vector<BodyJoint> joints = FindBodyJoints(structure);
-  if (joints.empty()) return nullptr;
+  if (joints.empty() || HasCrowdedBodies(structure, joints)) return nullptr;
   const std::optional<BodyRow> row = FindBodyRow(structure, joints);
   std::unique_ptr<JointSystem> system;
   if (row.has_value()) {

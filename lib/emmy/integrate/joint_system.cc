@@ -46,9 +46,10 @@ void AddPieceSums(ForwardWork work, const double* pieces, size_t groups,
   sums->moment_size = Sum(pieces, groups, P::kMomentSize);
   sums->work_size = Sum(pieces, groups, P::kWorkSize);
   sums->rate = Largest(pieces, groups, P::kRate);
+  sums->load_work = Sum(pieces, groups, P::kWeightWork) +
+                    std::abs(Sum(pieces, groups, P::kLoadWork));
   if (work != ForwardWork::kFactorize) return;
   sums->energy = Sum(pieces, groups, P::kEnergy);
-  sums->load_work = Sum(pieces, groups, P::kLoadWork);
 }
 
 JointCorrection PieceCorrection(const double* pieces, size_t groups) {

@@ -23,7 +23,7 @@ struct JointSums {
   double moment_size = 0.0;
   double work_size = 0.0;
   double rate = 0.0;
-  // Energy of the start, and work of the weight in this step [J].
+  // Energy of the start, and work of weight and loads in this step [J].
   double energy = 0.0;
   double load_work = 0.0;
 };

@@ -1,13 +1,13 @@
 // A maximum in which nothing that is not a number gets lost.
 
-#ifndef EMMY_VERIFICATION_RUNS_LARGER_H_
-#define EMMY_VERIFICATION_RUNS_LARGER_H_
+#ifndef EMMY_BASE_LARGER_H_
+#define EMMY_BASE_LARGER_H_
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-namespace emmy::verification {
+namespace emmy {
 
 // The larger, or NaN if one is: std::max would drop it.
 inline double Larger(double a, double b) {
@@ -17,6 +17,6 @@ inline double Larger(double a, double b) {
   return std::max(a, b);
 }
 
-}  // namespace emmy::verification
+}  // namespace emmy
 
-#endif  // EMMY_VERIFICATION_RUNS_LARGER_H_
+#endif  // EMMY_BASE_LARGER_H_
