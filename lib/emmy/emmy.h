@@ -26,6 +26,7 @@
 // What is observed.
 #include "emmy/diagnostics/angular_velocity.h"
 #include "emmy/diagnostics/body_motion.h"
+#include "emmy/diagnostics/check_state.h"
 #include "emmy/diagnostics/invariant_monitor.h"
 #include "emmy/diagnostics/invariants.h"
 #include "emmy/diagnostics/structure_motion.h"

@@ -99,7 +99,7 @@ INSTANTIATE_TEST_SUITE_P(
                 "principal values (0, 1, 1)"},
         Mistake{"SizesTooSmallTogether", "[3, 2, 1]", "[1e-120, 1e-120, 1]",
                 "box.json: /rigid_bodies/0/box: must be a body with mass, "
-                "volume and second moments >= 1e-290 [SI], got 2.7e-237 kg, "
+                "volume and second moments >= 1e-90 [SI], got 2.7e-237 kg, "
                 "1e-240 m^3 and 0 kg m^2"},
         Mistake{"ControlCharacterInAName", R"("name": "box",
       "box")",

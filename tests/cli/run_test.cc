@@ -17,6 +17,7 @@ namespace {
 using nlohmann::json;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
+using ::testing::Not;
 using ::testing::StartsWith;
 
 class RunTest : public ProgramTest {
@@ -126,6 +127,36 @@ TEST_F(RunTest, AFailedRunKeepsItsHistoryAndSaysSo) {
   EXPECT_EQ("box.json: " + summary["message"].get<std::string>() + "\n",
             result.err);
   EXPECT_EQ(Column(0).size(), summary["steps"].get<size_t>() + 1);
+}
+
+// The frame of a soft body may become its mirror image in a large step: the run
+// ends there, whatever it writes, with the state before.
+TEST_F(RunTest, ABodyThatTurnsInsideOutEndsTheRunAtTheLastGoodStep) {
+  const std::string soft =
+      "run box.json --steps 40 --set /rigid_bodies/0/penalty=1 "
+      "--set /integrator/time_step=1 ";
+  const ProgramResult alone = Run(soft);
+  EXPECT_EQ(alone.exit_status, 1);
+  const json summary = json::parse(alone.out);
+  EXPECT_EQ(summary["status"], "failed");
+  const int last = summary["steps"];
+  EXPECT_THAT(alone.err,
+              HasSubstr("step " + std::to_string(last + 1) +
+                        " at t = " + std::to_string(last) +
+                        " s: body \"box\" has turned inside out: the "
+                        "determinant of its gradient vectors must be > 0"));
+  for (const int every : {1, 7, 40}) {
+    const std::string output = "out_" + std::to_string(every);
+    const ProgramResult result =
+        Run(soft + "--output " + output + " --checkpoint " + output +
+            ".checkpoint --set /output/every=" + std::to_string(every));
+    EXPECT_EQ(result.exit_status, 1);
+    EXPECT_THAT(result.err, Not(HasSubstr("--resume")));
+    EXPECT_EQ(json::parse(Read(output + "/summary.json"))["steps"], last);
+    const std::string history = Read(output + "/history.csv");
+    const size_t row = history.rfind('\n', history.size() - 2) + 1;
+    EXPECT_THAT(history.substr(row), StartsWith(std::to_string(last) + ","));
+  }
 }
 
 TEST_F(RunTest, AFullDiskEndsTheRunAfterTheLastWholeRow) {

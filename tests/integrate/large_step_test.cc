@@ -97,6 +97,26 @@ INSTANTIATE_TEST_SUITE_P(Regimes, HugeStepTest,
                                                       {20.0, 50, 1e-13}})),
                          Name);
 
+// Where the rounding of one step is more than 1e-8 of the motion, there is no
+// step to accept: the laws would be broken by all digits.
+TEST(RoundingTest, APenaltyThatDoublesDoNotResolveIsRefused) {
+  for (const double penalty : {1e26, 1e36, 1e40, 1e60}) {
+    TestRun run(ModelOf(PaperBox(Formulation::kAncf, penalty)), 1e-3);
+    const State before = run.state();
+    EXPECT_FALSE(run.Step().ok()) << penalty;
+    EXPECT_TRUE(SameState(run.state(), before));
+  }
+}
+
+TEST(RoundingTest, AStepOfMoreTurnsThanDoublesResolveIsRefused) {
+  for (const double time_step : {1e9, 1e10, 1e14}) {
+    TestRun run(ModelOf(PaperBox(Formulation::kConventional)), time_step);
+    const State before = run.state();
+    EXPECT_FALSE(run.Step().ok()) << time_step;
+    EXPECT_TRUE(SameState(run.state(), before));
+  }
+}
+
 // A failure on demand: one iteration is never enough.
 TEST(FailedStepTest, LeavesEveryBitOfTheStateAndNamesTimeStepAndBody) {
   for (const Formulation formulation :

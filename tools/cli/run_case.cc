@@ -8,7 +8,9 @@
 #include "absl/status/status.h"
 #include "absl/status/statusor.h"
 #include "absl/strings/str_format.h"
+#include "emmy/diagnostics/check_state.h"
 #include "emmy/diagnostics/invariant_monitor.h"
+#include "emmy/diagnostics/invariants.h"
 #include "emmy/integrate/simulate.h"
 #include "tools/cli/interrupt.h"
 #include "tools/cli/progress.h"
@@ -129,15 +131,19 @@ RunResult RunCase(const RunOptions& options,
     if (files_ok()) checkpointer.Write(state.step);
   }
   Progress progress(state.step, last_step, options.quiet);
-  bool is_finite = true;
+  absl::Status sound;
+  State last_good = state;
 
   SimulationReport report;
   if (files_ok()) {
     report = Simulate(integrator, state, last_step - state.step,
                       [&](const State& reached, const StepReport& step) {
-                        monitor.Observe(reached);
-                        is_finite = IsFinite(monitor.latest());
-                        if (!is_finite) return false;
+                        const Invariants measured =
+                            MeasureInvariants(loaded.model, reached);
+                        sound = CheckState(loaded.model, reached, measured);
+                        if (!sound.ok()) return false;
+                        monitor.Observe(measured);
+                        last_good = reached;
                         effort.total_iterations += step.iterations;
                         effort.max_iterations =
                             std::max(effort.max_iterations, step.iterations);
@@ -153,10 +159,12 @@ RunResult RunCase(const RunOptions& options,
                       });
   }
   progress.Clear();
+  const int64_t reached_step = state.step;
+  if (!sound.ok()) state = last_good;
   // Before the row of an end that is no output step: whoever goes on, goes on
   // without it.
-  if (is_finite && files_ok()) checkpointer.Write(state.step);
-  if (is_finite) recorder.Record(state, effort.last_iterations);
+  if (files_ok()) checkpointer.Write(state.step);
+  recorder.Record(state, effort.last_iterations);
   update_time();
 
   RunResult result;
@@ -165,10 +173,10 @@ RunResult RunCase(const RunOptions& options,
   summary.status = RunStatus::kFailed;
   if (!report.ok()) {
     summary.message = report.message;
-  } else if (!is_finite) {
+  } else if (!sound.ok()) {
     summary.message = absl::StrFormat(
-        "energy or momentum is not finite after step %d at %.6g s", state.step,
-        state.time.value);
+        "step %d at t = %.6g s: %s; the state is that of the last good step",
+        reached_step, state.time.value, sound.message());
   } else if (!recorder.status().ok()) {
     summary.message = absl::StrFormat("%s", recorder.status().message());
   } else if (!checkpointer.status().ok()) {
@@ -181,7 +189,7 @@ RunResult RunCase(const RunOptions& options,
     summary.status = RunStatus::kCompleted;
   }
   result.can_be_resumed =
-      summary.status != RunStatus::kCompleted && report.ok() && is_finite &&
+      summary.status != RunStatus::kCompleted && report.ok() && sound.ok() &&
       (checkpointer.has_written() || options.resume != nullptr);
   summary.steps = state.step;
   summary.time = state.time.value;

@@ -47,7 +47,11 @@ InvariantMonitor::InvariantMonitor(const Model& model, const State& initial)
 }
 
 void InvariantMonitor::Observe(const State& state) {
-  latest_ = MeasureInvariants(*model_, state);
+  Observe(MeasureInvariants(*model_, state));
+}
+
+void InvariantMonitor::Observe(const Invariants& measured) {
+  latest_ = measured;
   const DoubleDouble total = latest_.TotalEnergy();
   energy_.final = total.ToDouble();
   energy_.max_error = Larger(

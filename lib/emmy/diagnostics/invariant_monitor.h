@@ -64,6 +64,8 @@ class EMMY_EXPORT InvariantMonitor {
   InvariantMonitor(const Model& model, const State& initial);
 
   void Observe(const State& state);
+  // The same, where the state has been measured.
+  void Observe(const Invariants& measured);
 
   InvariantExtremes extremes() const;
 

@@ -148,6 +148,13 @@ Invariants MeasureInvariants(const Model& model, const State& state) {
   return invariants;
 }
 
+bool IsFinite(const Invariants& invariants) {
+  return std::isfinite(invariants.TotalEnergy().ToDouble()) &&
+         std::isfinite(invariants.InternalEnergy().ToDouble()) &&
+         invariants.momentum.ToDouble().allFinite() &&
+         invariants.angular_momentum.ToDouble().allFinite();
+}
+
 double StrainGap(const Model& model, const State& state) {
   double gap = 0.0;
   for (const ModelLine& line : model.lines()) {

@@ -43,6 +43,9 @@ struct Invariants {
 EMMY_EXPORT Invariants MeasureInvariants(const Model& model,
                                          const State& state);
 
+// Whether energy, momentum and angular momentum are finite.
+EMMY_EXPORT bool IsFinite(const Invariants& invariants);
+
 // Largest difference between a carried strain and (ANCF-4) of the coordinates
 // with their compensations, in extended precision [-].
 EMMY_EXPORT double StrainGap(const Model& model, const State& state);

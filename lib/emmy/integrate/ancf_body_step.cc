@@ -193,7 +193,14 @@ BodyStepResult AncfBodyStep::Iterate(const AncfBodyStart& start,
           MaxMoment(e.mean_gradients, e.residual) / smallest_moment_sum_,
           rotation_floor);
       if (strain_done && rotation_done) {
-        result.termination = Termination::kConverged;
+        // A penalty so stiff that the rounding of its stress turns the body is
+        // no residual that an iteration could take away.
+        constexpr double kLargestShare = 1e-8;
+        const double rates = std::max(
+            {rate_scale, MaxAbs(start.rates), MaxAbs(*rate_increment)});
+        if (rotation_floor <= kLargestShare * rates) {
+          result.termination = Termination::kConverged;
+        }
         return result;
       }
       constexpr double kSlow = 0.3;

@@ -92,6 +92,12 @@ BodyStepResult ConventionalBodyStep::Solve(
                           ? result.correction <= *options_.tolerance * scale
                           : monitor.Update(result.correction, floor);
     if (done) {
+      // A step of so many turns that rounding alone changes the momentum.
+      constexpr double kLargestShare = 1e-8;
+      const double rates =
+          std::max({scale, start.angular_velocity.cwiseAbs().maxCoeff(),
+                    change.cwiseAbs().maxCoeff()});
+      if (!(floor <= kLargestShare * rates)) return result;
       result.termination = Termination::kConverged;
       break;
     }

@@ -441,7 +441,8 @@ ConventionalStructureStep::Scale ConventionalStructureStep::Scales() const {
   for (size_t i = 0; i < bodies_.size(); ++i) {
     const Body& body = bodies_[i];
     const Index row = BodyRow(static_cast<int>(i));
-    add(magnitude_.segment<3>(row).norm(), body.x0.norm(),
+    add(magnitude_.segment<3>(row).norm(),
+        body.x0.norm() + 0.5 * body.increment.norm(),
         body.mean_velocity.norm());
     add(magnitude_.segment<3>(row + 3).norm(), 1.0, body.mean_omega.norm());
     scale.rate =
@@ -456,7 +457,7 @@ ConventionalStructureStep::Scale ConventionalStructureStep::Scales() const {
   for (size_t i = 0; i < nodes_.size(); ++i) {
     const Node& node = nodes_[i];
     add(magnitude_.segment<3>(NodeRow(static_cast<int>(i))).norm(),
-        node.q0.norm(), node.mean_rate.norm());
+        node.q0.norm() + 0.5 * node.increment.norm(), node.mean_rate.norm());
     scale.rate =
         std::max({scale.rate, largest(node.w0), largest(node.mean_rate)});
   }

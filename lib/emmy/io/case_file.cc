@@ -1,7 +1,6 @@
 #include "emmy/io/case_file.h"
 
 #include <algorithm>
-#include <cmath>
 #include <nlohmann/json.hpp>
 #include <utility>
 
@@ -64,13 +63,6 @@ absl::StatusOr<Case> ReadCaseFile(const std::string& path,
   absl::StatusOr<Case> result = ParseCase(*text, overrides);
   if (!result.ok()) return CaseFileError(path, overrides, result.status());
   return result;
-}
-
-bool IsFinite(const Invariants& invariants) {
-  return std::isfinite(invariants.TotalEnergy().ToDouble()) &&
-         std::isfinite(invariants.InternalEnergy().ToDouble()) &&
-         invariants.momentum.ToDouble().allFinite() &&
-         invariants.angular_momentum.ToDouble().allFinite();
 }
 
 absl::StatusOr<LoadedCase> BuildCase(Case description) {

@@ -36,9 +36,6 @@ struct LoadedCase {
   State state;  // At time 0.
 };
 
-// Whether energy, momentum and angular momentum are finite.
-EMMY_EXPORT bool IsFinite(const Invariants& invariants);
-
 // Builds the model of a case; energy and momentum at the start must be finite.
 // Messages begin with the JSON pointer.
 EMMY_EXPORT absl::StatusOr<LoadedCase> BuildCase(Case description);

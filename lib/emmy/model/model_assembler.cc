@@ -199,6 +199,8 @@ absl::Status ModelAssembler::ReadNodes() {
     if (!status.ok()) return status;
     status = CheckNotNegative(pointer + "/mass", node.mass, "kg");
     if (!status.ok()) return status;
+    status = CheckMass(pointer + "/mass", node.mass);
+    if (!status.ok()) return status;
     status = CheckFinite(pointer + "/position", node.position, "m");
     if (!status.ok()) return status;
     absl::StatusOr<Vector3d> velocity = StartVelocity(pointer, node);
@@ -574,6 +576,8 @@ absl::Status ModelAssembler::AddLine(const std::string& pointer,
                                      const LineElement& element,
                                      const std::array<Point, 2>& ends,
                                      double mass) {
+  const absl::Status has_mass = CheckMass(pointer, mass);
+  if (!has_mass.ok()) return has_mass;
   ModelLine line{.name = name,
                  .element = element,
                  .ends = ends,

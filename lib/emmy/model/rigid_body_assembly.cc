@@ -20,14 +20,14 @@ namespace {
 // Products of sizes, which may be nothing although no size is.
 absl::StatusOr<RigidBodyInertia> CheckNotVanishing(
     const std::string& pointer, const RigidBodyInertia& inertia) {
-  // Below, low-order parts of products are lost (DoubleDouble).
-  constexpr double kLeast = 1e-290;
   const double moment = inertia.second_moment.diagonal().minCoeff();
-  if (!(std::min({inertia.mass, inertia.volume, moment}) < kLeast)) {
+  if (!(std::min({inertia.mass, inertia.volume, moment}) < kLeastMass)) {
     return inertia;
   }
   return FieldError(
-      pointer, "a body with mass, volume and second moments >= 1e-290 [SI]",
+      pointer,
+      absl::StrCat("a body with mass, volume and second moments >= ",
+                   NumberText(kLeastMass), " [SI]"),
       absl::StrCat(NumberText(inertia.mass), " kg, ",
                    NumberText(inertia.volume), " m^3 and ", NumberText(moment),
                    " kg m^2"));

@@ -74,6 +74,16 @@ absl::Status CheckNotNegative(std::string_view pointer, double value,
                     NumberText(value));
 }
 
+absl::Status CheckMass(std::string_view pointer, double mass) {
+  if (std::isfinite(mass) && (mass == 0.0 || mass >= kLeastMass)) {
+    return absl::OkStatus();
+  }
+  return FieldError(pointer,
+                    absl::StrCat("a mass of 0 or a finite number >= ",
+                                 NumberText(kLeastMass), " [kg]"),
+                    NumberText(mass));
+}
+
 absl::Status CheckFinite(std::string_view pointer, const Vector3d& value,
                          std::string_view unit) {
   for (int i = 0; i < 3; ++i) {

@@ -23,6 +23,14 @@ absl::Status CheckNotNegative(std::string_view pointer, double value,
 absl::Status CheckFinite(std::string_view pointer, const Vector3d& value,
                          std::string_view unit);
 
+// The least mass that is not nothing [kg], and volume [m^3] or second moment
+// [kg m^2] of a body: the products of three in a determinant, and the low-order
+// parts of these (DoubleDouble), are not lost below the smallest double.
+inline constexpr double kLeastMass = 1e-90;
+
+// Zero, or kLeastMass at least.
+absl::Status CheckMass(std::string_view pointer, double mass);
+
 // In quotation marks, with control characters as \u0007: for messages.
 std::string NameText(std::string_view name);
 
