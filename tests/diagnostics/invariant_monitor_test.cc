@@ -52,6 +52,12 @@ TEST_F(InvariantMonitorTest, AStateThatIsNotFiniteIsNotForgotten) {
   EXPECT_TRUE(std::isnan(monitor.angular_momentum().max_relative_error()));
 }
 
+TEST_F(InvariantMonitorTest, AStateOfAnotherModelStopsTheProgram) {
+  InvariantMonitor monitor(built_.model, built_.state);
+  EXPECT_DEATH(monitor.Observe(State{}),
+               "a state of 0 positions, 0 velocities.* for a model of 12");
+}
+
 TEST_F(InvariantMonitorTest, GoesOnAsIfItHadNeverStopped) {
   InvariantMonitor whole(built_.model, built_.state);
   whole.Observe(WithVelocity(3.0));

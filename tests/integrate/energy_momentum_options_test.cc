@@ -2,6 +2,7 @@
 
 #include <limits>
 #include <string>
+#include <utility>
 
 #include "emmy/integrate/energy_momentum.h"
 #include "emmy/model/model_builder.h"
@@ -66,6 +67,22 @@ TEST_F(IntegratorOptionsTest, AnOrderThatIsNotThereIsRejected) {
   const std::string message = Message({.order = 3, .time_step = 1e-3});
   EXPECT_EQ(message.rfind("/integrator/order: must be ", 0), 0U) << message;
   EXPECT_NE(message.find(", got 3"), std::string::npos) << message;
+}
+
+// A caller's mistakes, which would read and write beside the state.
+TEST_F(IntegratorOptionsTest, AStateOfAnotherModelStopsTheProgram) {
+  auto integrator =
+      EnergyMomentumIntegrator::Create(built_.model, {.time_step = 1e-3});
+  ASSERT_TRUE(integrator.ok());
+  State other =
+      BuildModel(ModelOf(PaperBox(Formulation::kConventional)))->state;
+  EXPECT_DEATH(static_cast<void>(integrator->Step(other)),
+               "a state of 7 positions, .* for a model of 12 positions");
+  EnergyMomentumIntegrator moved = *std::move(integrator);
+  EXPECT_TRUE(moved.Step(built_.state).ok());
+  // NOLINTNEXTLINE(bugprone-use-after-move): what is tested.
+  EXPECT_DEATH(static_cast<void>(integrator->Step(built_.state)),
+               "an integrator that was moved from");
 }
 
 }  // namespace

@@ -4,7 +4,9 @@
 #include <array>
 #include <cmath>
 
+#include "emmy/base/check.h"
 #include "emmy/diagnostics/extended_state.h"
+#include "emmy/model/state_size.h"
 
 namespace emmy {
 namespace {
@@ -131,6 +133,9 @@ void AddConventionalEnds(const Model& model, const State& state,
 }  // namespace
 
 Invariants MeasureInvariants(const Model& model, const State& state) {
+  EMMY_CHECK(SizeOf(state) == SizeOf(model), "a state of " << SizeOf(state)
+                                                           << " for a model of "
+                                                           << SizeOf(model));
   Invariants invariants;
   AddLinear(model, state, &invariants);
   AddElasticEnergies(model, state, &invariants);

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "absl/strings/str_cat.h"
+#include "emmy/base/check.h"
 #include "emmy/integrate/composition.h"
 #include "emmy/model/validation.h"
 
@@ -45,6 +46,7 @@ absl::StatusOr<EnergyMomentumIntegrator> EnergyMomentumIntegrator::Create(
 EnergyMomentumIntegrator::EnergyMomentumIntegrator(
     const Model& model, const IntegratorOptions& options)
     : options_(options),
+      state_size_(SizeOf(model)),
       structures_(std::make_unique<const std::vector<Structure>>(
           SplitIntoStructures(model))) {}
 
@@ -142,6 +144,10 @@ bool EnergyMomentumIntegrator::Compose(State& state, StepReport* report) {
 }
 
 StepReport EnergyMomentumIntegrator::Step(State& state) {
+  EMMY_CHECK(!sequence_.empty(), "an integrator that was moved from");
+  EMMY_CHECK(SizeOf(state) == state_size_, "a state of " << SizeOf(state)
+                                                         << " for a model of "
+                                                         << state_size_);
   StepReport report;
   // A step that is not composed leaves the state by itself when it fails.
   const bool solved = sequence_.size() == 1

@@ -24,6 +24,7 @@
 #include "emmy/integrate/structure.h"
 #include "emmy/model/model.h"
 #include "emmy/model/state.h"
+#include "emmy/model/state_size.h"
 #include "emmy/numerics/newton.h"
 #include "emmy/numerics/symmetric_factor.h"
 
@@ -85,6 +86,7 @@ class EMMY_EXPORT EnergyMomentumIntegrator {
   bool Compose(State& state, StepReport* report);
 
   IntegratorOptions options_;
+  StateSize state_size_;
   // Behind a pointer, since the steps refer to them.
   std::unique_ptr<const std::vector<Structure>> structures_;
   std::vector<ModelStep> steps_;  // One for each size there is.
