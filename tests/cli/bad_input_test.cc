@@ -280,6 +280,29 @@ INSTANTIATE_TEST_SUITE_P(
                  "--threads: must be a whole number from 1 to 1024, got 0"},
         WrongUse{"ThreadsOfNoNumber", "run box.json --threads two -o out",
                  "--threads: must be a whole number from 1 to 1024, got two"},
+        WrongUse{"SizeOfNoNumber", "generate chain --size two --output x",
+                 "--size: must be a whole number from 2 to 400000 for chain, "
+                 "got two"},
+        WrongUse{"NetTooLarge", "generate net --size 451 --output x",
+                 "--size: must be a whole number from 2 to 450 for net, "
+                 "got 451"},
+        WrongUse{"CableNetFarTooLarge", "generate cable_net --size 10000000",
+                 "--size: must be a whole number from 2 to 450 for cable_net, "
+                 "got 10000000"},
+        WrongUse{"ChainTooLarge", "generate chain --size 400001",
+                 "--size: must be a whole number from 2 to 400000 for chain, "
+                 "got 400001"},
+        WrongUse{"ConventionalChainTooLarge",
+                 "generate conventional_chain --size 400001",
+                 "--size: must be a whole number from 2 to 400000 for "
+                 "conventional_chain, got 400001"},
+        WrongUse{"TrussedBoxesTooLarge",
+                 "generate trussed_boxes --size 99999999999",
+                 "--size: must be a whole number from 2 to 150000 for "
+                 "trussed_boxes, got 99999999999"},
+        WrongUse{"SizeTooSmall", "generate net --size 1 --output x",
+                 "--size: must be a whole number from 2 to 450 for net, "
+                 "got 1"},
         WrongUse{"SetWithoutValue", "run box.json --set", "--set"}),
     [](const auto& use) { return std::string(use.param.name); });
 
