@@ -28,9 +28,11 @@ class CheckedRun {
   // an iteration, and fills the counters: `newton_iterations`, `energy_error`,
   // `angular_momentum_error`, `factorizations` per step. Energy and angular
   // momentum at the end are held against those of the start, before the
-  // warm-up; if they are not kept to `bound`, or a step fails, the benchmark
-  // ends with an error instead of a time.
-  void TimeSteps(benchmark::State& state, double bound);
+  // warm-up; if they are not kept to `bound`, and `bound_per_step` more for
+  // each step since the start, or a step fails, the benchmark ends with an
+  // error instead of a time.
+  void TimeSteps(benchmark::State& state, double bound,
+                 double bound_per_step = 0.0);
 
  private:
   std::string error_;

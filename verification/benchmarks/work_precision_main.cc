@@ -77,7 +77,8 @@ std::vector<Curve> Curves() {
   return curves;
 }
 
-// From coarse to fine; the finest reaches round-off or 1 ms.
+// From coarse to fine: 0.2 s halved down to 0.39, 1.6 and 6.3 ms for orders
+// two, four and six.
 std::vector<double> StepsOf(int order) {
   std::vector<double> steps;
   const int halvings = order == 2 ? 9 : order == 4 ? 7 : 5;
