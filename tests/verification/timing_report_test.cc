@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <fstream>
 #include <string>
 
@@ -118,6 +119,19 @@ TEST(TimingReportTest, EveryTargetSaysWhereItComesFrom) {
   }
 }
 
+// Each name begins those of a benchmark with a ratio of its threads.
+TEST(TimingReportTest, NamesWhatIsMeasuredByTheClock) {
+  const std::string text = TimingReport(TimingRun());
+  for (const char* const name : {"batch_clock", "net/large", "chain/long"}) {
+    EXPECT_THAT(text, HasSubstr(absl::StrCat("`", name, "`")));
+    EXPECT_TRUE(std::any_of(Ratios().begin(), Ratios().end(),
+                            [&name](const Ratio& ratio) {
+                              return ratio.denominator.rfind(name, 0) == 0;
+                            }))
+        << name;
+  }
+}
+
 TEST(TimingReportTest, SaysWhatWasNotMeasured) {
   const TimingRun run =
       Read(FileWith("one.json", Row("one_body/runge_kutta", 40.0, "ns")));
@@ -138,6 +152,15 @@ TEST(TimingReportTest, FitsNoGrowthWhereASizeIsMissing) {
                                    Row("chain/boxes:1000", 10.0, "us"))));
   EXPECT_THAT(TimingReport(run),
               HasSubstr("100 to 10,000, by boxes | not measured |"));
+}
+
+TEST(TimeTextTest, HasAUnitThatFitsTheTime) {
+  EXPECT_EQ(TimeText(64.0), "64 ns");
+  EXPECT_EQ(TimeText(7.59e3), "7.59 us");
+  EXPECT_EQ(TimeText(43.5e6), "43.5 ms");
+  EXPECT_EQ(TimeText(848e6), "848 ms");
+  EXPECT_EQ(TimeText(1.05e9), "1.05 s");
+  EXPECT_EQ(TimeText(12.3e9), "12.3 s");
 }
 
 TEST(CompareTimingsTest, NamesWhatChangedBeyondItsSpread) {

@@ -70,9 +70,9 @@ absl::Status WriteHtml(const Arguments& arguments, const TimingRun& run,
   if (!arguments.figures.empty()) {
     AddFigure(arguments.figures,
               {"growth", "Growth",
-               "Processor time of a step against the size of nets, chains, "
+               "Time of a step against the size of nets, chains, "
                "loops, trees and rows",
-               "Processor time of a step over the number of nodes or boxes; "
+               "Time of a step over the number of nodes or boxes; "
                "dashed, a time that grows as the size.",
                "", ""},
               &parts);

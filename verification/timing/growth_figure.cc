@@ -36,12 +36,12 @@ Figure GrowthFigure(const TimingRun& run) {
   }
   figure.columns = {{"curve", curve},
                     {"nodes or boxes", sizes},
-                    {"processor time of a step [us]", times}};
+                    {"time of a step [us]", times}};
   figure.height = 640;
   figure.powers_of_ten = true;
   figure.script = absl::StrFormat(
       R"(set xlabel 'nodes or boxes'
-set ylabel 'processor time of a step [µs]'
+set ylabel 'time of a step [µs]'
 set key below left vertical maxrows 6
 plot %s0.3*x with lines lc rgb 'gray' dt 2 title 'as the size'
 )",

@@ -43,7 +43,7 @@ struct Growth {
 
 const std::vector<Growth>& Growths();
 
-// "64 ns", "7.59 us", "43.5 ms".
+// "64 ns", "7.59 us", "43.5 ms", "1.05 s".
 std::string TimeText(double nanoseconds);
 
 // Markdown: tables of ratios, growth and times, and the environment.
