@@ -88,10 +88,11 @@ TEST_P(KnownMotionTest, ConvergesWithTheSecondOrder) {
   RigidBodyDescription body = Box();
   if (GetParam() == Formulation::kAncf) body.start = Start::kRelaxed;
   constexpr double kTime = 4.0;
+  using Vector12d = Eigen::Matrix<double, 12, 1>;
   const auto end = [&body](int num_steps) {
     TestRun run(ModelOf(body), kTime / num_steps);
     EXPECT_TRUE(run.Advance(num_steps));
-    Eigen::Matrix<double, 12, 1> result;
+    Vector12d result;
     const Matrix3d attitude = QuaternionToMatrix(run.Motion().quaternion);
     result << Eigen::Map<const Vector9d>(attitude.data()),
         run.Motion().omega_locked;

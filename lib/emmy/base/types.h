@@ -11,7 +11,6 @@ using Vector3d = Eigen::Vector3d;
 using Vector4d = Eigen::Vector4d;
 using Vector6d = Eigen::Matrix<double, 6, 1>;
 using Vector9d = Eigen::Matrix<double, 9, 1>;
-using Vector12d = Eigen::Matrix<double, 12, 1>;
 using VectorXd = Eigen::VectorXd;
 using Matrix3Xd = Eigen::Matrix<double, 3, Eigen::Dynamic>;
 using Matrix3d = Eigen::Matrix3d;

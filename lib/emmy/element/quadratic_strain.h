@@ -33,11 +33,6 @@ inline double ProductStrainIncrement(const Vector3d& a_mean,
   return a_mean.dot(b_increment) + b_mean.dot(a_increment);
 }
 
-// ε̄ of (QS-2).
-inline double MeanStrain(double strain, double increment) {
-  return strain + 0.5 * increment;
-}
-
 }  // namespace emmy
 
 #endif  // EMMY_ELEMENT_QUADRATIC_STRAIN_H_

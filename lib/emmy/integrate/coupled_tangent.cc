@@ -196,9 +196,8 @@ bool CoupledTangent::Factorize(const TangentPoint& point) {
   turn_.setIdentity();
   Assemble(point);
   ++num_factorizations_;
-  is_factorized_ = factor_.Factorize(matrix_);
   positions_ = point.mean_positions;
-  return is_factorized_;
+  return factor_.Factorize(matrix_);
 }
 
 KeptTangent CoupledTangent::Keep() const {
@@ -206,7 +205,6 @@ KeptTangent CoupledTangent::Keep() const {
 }
 
 bool CoupledTangent::Restore(const KeptTangent& kept) {
-  is_factorized_ = false;
   if (kept.matrix.size() != matrix_.values().size() ||
       kept.positions.cols() != structure_->num_vectors()) {
     return false;
@@ -214,8 +212,7 @@ bool CoupledTangent::Restore(const KeptTangent& kept) {
   matrix_.SetValues(kept.matrix);
   positions_ = kept.positions;
   turn_ = kept.turn;
-  is_factorized_ = factor_.Factorize(matrix_);
-  return is_factorized_;
+  return factor_.Factorize(matrix_);
 }
 
 // The mass-weighted rotation that best takes the positions of the

@@ -52,9 +52,6 @@ class CoupledTangent {
   // Assembles and factorises at `point`. False if the factorisation fails.
   bool Factorize(const TangentPoint& point);
 
-  // True once Factorize has succeeded.
-  bool is_factorized() const { return is_factorized_; }
-
   // The factorisation as it is now, and back to it in a tangent of the same
   // structure and step. Restore is false, and nothing is factorised, if the
   // sizes do not fit or the matrix cannot be factorised.
@@ -116,7 +113,6 @@ class CoupledTangent {
   std::vector<BodyFrame> frames_;
   std::vector<int> body_of_;  // Of each vector; −1: a node.
   VectorXd right_side_, solution_;
-  bool is_factorized_ = false;
   int num_factorizations_ = 0;
 };
 
