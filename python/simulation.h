@@ -52,7 +52,9 @@ class Simulation {
   // Steps without Python's lock, which it takes ten times a second to look for
   // Ctrl-C. Throws StepError if a step fails, and whatever a signal handler or
   // `progress` raises; the state is that after the last good step, and
-  // history() ends with it.
+  // history() ends with it. Only a step whose energy or momentum is not finite
+  // is seen after it is made: the state is then that step's, and history() ends
+  // before it.
   void Run(const RunOptions& options);
 
   // The rows of the last run that recorded any; else null.

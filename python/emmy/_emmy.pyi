@@ -14,8 +14,9 @@ class InputError(ValueError):
     expected and what was found, as that of the program `emmy`."""
 
 class StepError(RuntimeError):
-    """A step that could not be computed. The simulation is as after the last
-    good step, and its history ends there."""
+    """A step that could not be computed, or whose energy or momentum is not
+    finite. The simulation is as before the former, and as after the latter; its
+    history ends before either."""
 
 class _BuildInfo(TypedDict):
     version: str

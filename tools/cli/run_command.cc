@@ -329,8 +329,8 @@ JSON, and no file is written. With it, DIR is made if needed; history.csv grows
 during the run, and summary.json is written at the end, also of a run that
 fails or is stopped by Ctrl-C ("status").
 
---threads helps structures of 4000 nodes and more, and chains of some hundred
-bodies; other models run on one thread. Results do not depend on it.
+--threads helps structures of 4000 nodes and more, and chains of more than 512
+ANCF bodies; other models run on one thread. Results do not depend on it.
 
 A run with --checkpoint that was stopped, by whatever, goes on with --resume as
 if it never had been: the same command line, with the file as it is, gives the
