@@ -32,6 +32,9 @@ install(FILES
 set(_emmy_pc_folder "${CMAKE_INSTALL_LIBDIR}/pkgconfig")
 file(RELATIVE_PATH _emmy_prefix_from_pc "/${_emmy_pc_folder}" "/")
 string(REGEX REPLACE "/$" "" _emmy_prefix_from_pc "${_emmy_prefix_from_pc}")
+list(TRANSFORM EMMY_EIGEN_DEFINITIONS PREPEND " -D"
+  OUTPUT_VARIABLE _emmy_pc_definitions)
+list(JOIN _emmy_pc_definitions "" _emmy_pc_definitions)
 configure_file("${PROJECT_SOURCE_DIR}/cmake/emmy.pc.in"
   "${PROJECT_BINARY_DIR}/emmy.pc" @ONLY)
 install(FILES "${PROJECT_BINARY_DIR}/emmy.pc"

@@ -13,6 +13,17 @@ function(run)
   set(output "${output}" PARENT_SCOPE)
 endfunction()
 
+# The command must fail, and say `text`.
+function(expect_failure text)
+  execute_process(COMMAND ${ARGN}
+    RESULT_VARIABLE status OUTPUT_VARIABLE output ERROR_VARIABLE output)
+  string(FIND "${output}" "${text}" place)
+  if(status EQUAL 0 OR place EQUAL -1)
+    message(FATAL_ERROR
+      "expected the error \"${text}\", status ${status}: ${ARGN}\n${output}")
+  endif()
+endfunction()
+
 function(run_program)
   run(${ARGN})
   if(NOT output MATCHES "^emmy [0-9]+\\.[0-9]+\\.[0-9]+\n")
@@ -42,6 +53,11 @@ endfunction()
 set(configure "${CMAKE_COMMAND}" -S "${SOURCE}/tests/package/consumer"
   -B "${SCRATCH}/build" -G Ninja "-DCMAKE_CXX_COMPILER=${COMPILER}"
   "-DCMAKE_CXX_FLAGS=${FLAGS}")
+# Flags with which Eigen aligns vectors otherwise than by default.
+set(other_alignment "")
+if(PROCESSOR MATCHES "^(x86_64|AMD64)$" AND NOT EIGEN_DEFINITIONS)
+  set(other_alignment -mavx2)
+endif()
 # A subfolder must not ask for what only tests and verification need.
 set(subfolder_arguments
   -DCMAKE_DISABLE_FIND_PACKAGE_GTest=ON
@@ -70,6 +86,16 @@ if(WAY MATCHES "^(static|shared)$")
     message(FATAL_ERROR "the consumer is not linked to the shared library: ${output}")
   elseif(WAY STREQUAL static AND output MATCHES "libemmy")
     message(FATAL_ERROR "the consumer is not linked to the static library: ${output}")
+  endif()
+  # A program that Eigen gives another layout of vectors is refused.
+  if(other_alignment)
+    run(${configure} "-DEMMY_PARENT_OPTIONS=${other_alignment}")
+    expect_failure("Eigen aligns vectors otherwise here than in the library Emmy"
+      "${CMAKE_COMMAND}" --build "${SCRATCH}/build")
+    run(${configure}
+      -DEMMY_PARENT_OPTIONS=-DEIGEN_MALLOC_ALREADY_ALIGNED=0)
+    expect_failure("Eigen takes memory otherwise here than in the library Emmy"
+      "${CMAKE_COMMAND}" --build "${SCRATCH}/build")
   endif()
 elseif(WAY STREQUAL pkg_config)
   find_program(pkg_config NAMES pkg-config pkgconf REQUIRED)
@@ -114,6 +140,12 @@ else()  # subfolder, fetched
   run(ninja -C "${SCRATCH}/build" -n consumer)
   if(NOT output MATCHES "libemmy\\.so")
     message(FATAL_ERROR "expected the shared library:\n${output}")
+  endif()
+  # Both are built with the parent's flags, and so agree.
+  if(other_alignment)
+    run(${configure} ${subfolder_arguments}
+      "-DEMMY_PARENT_OPTIONS=${other_alignment}")
+    run(ninja -C "${SCRATCH}/build" CMakeFiles/consumer.dir/consumer.cc.o)
   endif()
 endif()
 file(REMOVE_RECURSE "${SCRATCH}")
