@@ -12,6 +12,7 @@
 #include "emmy/base/compensated_sum.h"
 #include "emmy/base/double_double.h"
 #include "emmy/base/types.h"
+#include "emmy/numerics/polar.h"
 
 // A model: from a description to what can be stepped.
 #include "emmy/model/model.h"

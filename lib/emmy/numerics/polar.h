@@ -10,6 +10,7 @@
 #ifndef EMMY_NUMERICS_POLAR_H_
 #define EMMY_NUMERICS_POLAR_H_
 
+#include "emmy/base/export.h"
 #include "emmy/base/types.h"
 
 namespace emmy {
@@ -22,7 +23,7 @@ struct PolarDecomposition {
   bool ok = false;
 };
 
-PolarDecomposition DecomposePolar(const Matrix3d& f);
+EMMY_EXPORT PolarDecomposition DecomposePolar(const Matrix3d& f);
 
 }  // namespace emmy
 

@@ -31,13 +31,25 @@ std::optional<emmy::Checkpoint> Read(const std::string& bytes,
   return *std::move(checkpoint);
 }
 
+// Whether a body that turns with ω is said to, by both polar angular
+// velocities.
+bool TurnsAsGiven() {
+  const emmy::Vector3d omega(0.3, -0.2, 0.1);
+  emmy::Matrix3d rates;
+  rates << 0, -0.1, -0.2, 0.1, 0, -0.3, 0.2, 0.3, 0;
+  const auto polar = emmy::DecomposePolar(emmy::Matrix3d::Identity());
+  return polar.ok &&
+         (emmy::PolarAngularVelocity(polar, rates) - omega).norm() < 1e-15 &&
+         (emmy::ExactPolarAngularVelocity(polar, rates) - omega).norm() < 1e-15;
+}
+
 }  // namespace
 
 // Runs ten steps of a case, and five of them again from a checkpoint: reading,
 // building, stepping and measuring all come from the library.
 int main(int argc, char** argv) {
   std::cout << "emmy " << emmy::GetBuildInfo().version << "\n";
-  if (argc != 2) return 2;
+  if (argc != 2 || !TurnsAsGiven()) return 2;
   auto loaded = emmy::LoadCaseFile(argv[1]);
   if (!loaded.ok()) return 1;
   const emmy::IntegratorOptions options = {
