@@ -48,6 +48,13 @@ if(CMAKE_SYSTEM_PROCESSOR MATCHES "^(aarch64|arm64)$")
     $<$<CXX_COMPILER_ID:GNU>:-march=armv8-a+crypto>)
 endif()
 
+# emmy_file_names: for what is installed or packed, linked PRIVATE. A failed
+# EMMY_CHECK names its file from the project's folder on, so that a program does
+# not show where it was built and is the same from any folder.
+add_library(emmy_file_names INTERFACE)
+target_compile_options(emmy_file_names INTERFACE
+  "-fmacro-prefix-map=${PROJECT_SOURCE_DIR}/=")
+
 # emmy_warnings: for our own files only, linked PRIVATE.
 add_library(emmy_warnings INTERFACE)
 target_compile_options(emmy_warnings INTERFACE

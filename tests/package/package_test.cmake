@@ -50,6 +50,24 @@ function(check_installed_files)
   endforeach()
 endfunction()
 
+# Nor may the programs; what debuggers and sanitizers are told is not meant.
+function(check_installed_programs)
+  if(NOT TYPE STREQUAL "Release" OR FLAGS MATCHES "-g|-fsanitize")
+    return()
+  endif()
+  file(GLOB found "${prefix}/bin/emmy" "${prefix}/lib*/libemmy.*"
+    "${prefix}/lib*/*/libemmy.*")
+  foreach(file IN LISTS found)
+    foreach(folder IN ITEMS lib verification tools)
+      execute_process(COMMAND grep -aoF "${SOURCE}/${folder}/" "${file}"
+        OUTPUT_VARIABLE output)
+      if(output)
+        message(FATAL_ERROR "${file} names files in ${SOURCE}/${folder}")
+      endif()
+    endforeach()
+  endforeach()
+endfunction()
+
 set(configure "${CMAKE_COMMAND}" -S "${SOURCE}/tests/package/consumer"
   -B "${SCRATCH}/build" -G Ninja "-DCMAKE_CXX_COMPILER=${COMPILER}"
   "-DCMAKE_CXX_FLAGS=${FLAGS}")
@@ -70,6 +88,7 @@ set(subfolder_arguments
 if(WAY MATCHES "^(static|shared)$")
   run("${CMAKE_COMMAND}" --install "${BUILD}" --prefix "${prefix}")
   check_installed_files()
+  check_installed_programs()
   foreach(file IN ITEMS bin/emmy share/emmy/case.schema.json include/emmy/emmy.h)
     if(NOT EXISTS "${prefix}/${file}")
       message(FATAL_ERROR "${file} is not installed")
