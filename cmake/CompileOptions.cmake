@@ -18,11 +18,15 @@ add_library(emmy_arithmetic INTERFACE)
 target_compile_options(emmy_arithmetic INTERFACE ${EMMY_ARITHMETIC_FLAGS})
 list(JOIN EMMY_ARITHMETIC_FLAGS " " EMMY_ARITHMETIC_FLAGS)
 
-# Value-changing optimisations remove the compensation altogether.
+# Value-changing optimisations remove the compensation altogether. Options
+# of a parent that hold in some cases only are left to lib/emmy/base/build_info.cc.
 string(TOUPPER "${CMAKE_BUILD_TYPE}" _emmy_build_type)
-foreach(_emmy_flags IN ITEMS CMAKE_CXX_FLAGS CMAKE_CXX_FLAGS_${_emmy_build_type})
+get_directory_property(COMPILE_OPTIONS COMPILE_OPTIONS)
+list(FILTER COMPILE_OPTIONS EXCLUDE REGEX "[$]<")
+foreach(_emmy_flags IN ITEMS
+    CMAKE_CXX_FLAGS CMAKE_CXX_FLAGS_${_emmy_build_type} COMPILE_OPTIONS)
   if("${${_emmy_flags}}" MATCHES
-      "-Ofast|-ffast-math|-funsafe-math-optimizations|-fassociative-math|-freciprocal-math|-ffp-model=fast")
+      "-Ofast|-ffast-math|-funsafe-math-optimizations|-fassociative-math|-freciprocal-math|-ffinite-math-only|-ffp-model=fast")
     message(FATAL_ERROR
       "${_emmy_flags} contains ${CMAKE_MATCH_0}: Emmy's conservation laws hold "
       "to round-off only if the compiler keeps floating-point semantics.")

@@ -137,9 +137,18 @@ elseif(WAY STREQUAL debian)
   run(bash "${SOURCE}/tests/package/debian_test" "${BUILD}" "${SCRATCH}"
     "${case}")
 else()  # subfolder, fetched
-  # Configuring is enough: what is built is the same.
+  # Configuring is nearly enough: what is built is the same.
   if(WAY STREQUAL subfolder)
     list(APPEND configure "-DEMMY_SUBFOLDER=${SOURCE}")
+    # A parent's flags may not change values in the library.
+    expect_failure("COMPILE_OPTIONS contains -ffast-math"
+      ${configure} ${subfolder_arguments} -DEMMY_PARENT_OPTIONS=-ffast-math)
+    run(${configure} ${subfolder_arguments}
+      "-DEMMY_PARENT_OPTIONS=$<$<COMPILE_LANGUAGE:CXX>:-ffast-math>")
+    expect_failure("Emmy is compiled without -ffast-math"
+      ninja -C "${SCRATCH}/build"
+      emmy/lib/emmy/CMakeFiles/emmy.dir/base/build_info.cc.o)
+    run(${configure} ${subfolder_arguments} -DEMMY_PARENT_OPTIONS=)
   else()
     list(APPEND configure "-DEMMY_FETCHED=${SOURCE}"
       -DFETCHCONTENT_FULLY_DISCONNECTED=ON)
