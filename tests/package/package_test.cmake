@@ -139,6 +139,7 @@ elseif(WAY STREQUAL debian)
 else()  # subfolder, fetched
   # Configuring is nearly enough: what is built is the same.
   if(WAY STREQUAL subfolder)
+    set(folder emmy)
     list(APPEND configure "-DEMMY_SUBFOLDER=${SOURCE}")
     # A parent's flags may not change values in the library.
     expect_failure("COMPILE_OPTIONS contains -ffast-math"
@@ -150,6 +151,7 @@ else()  # subfolder, fetched
       emmy/lib/emmy/CMakeFiles/emmy.dir/base/build_info.cc.o)
     run(${configure} ${subfolder_arguments} -DEMMY_PARENT_OPTIONS=)
   else()
+    set(folder _deps/emmy-build)
     list(APPEND configure "-DEMMY_FETCHED=${SOURCE}"
       -DFETCHCONTENT_FULLY_DISCONNECTED=ON)
   endif()
@@ -169,6 +171,23 @@ else()  # subfolder, fetched
   if(NOT output MATCHES "libemmy\\.so")
     message(FATAL_ERROR "expected the shared library:\n${output}")
   endif()
+  # Nothing of it is installed with its parent, unless that asks for it; then a
+  # library that needs it can be exported.
+  file(GLOB_RECURSE found "${SCRATCH}/build/*/emmyConfigVersion.cmake")
+  if(found)
+    message(FATAL_ERROR "a subfolder is installed unasked: ${found}")
+  endif()
+  run(${configure} ${subfolder_arguments} -DEMMY_INSTALL=ON)
+  foreach(file IN ITEMS cmake_install.cmake ${folder}/cmake_install.cmake)
+    file(READ "${SCRATCH}/build/${file}" text)
+    string(APPEND installed "${text}")
+  endforeach()
+  foreach(file IN ITEMS libemmy.so libemmy.a emmyTargets.cmake emmyConfig.cmake)
+    if(NOT installed MATCHES "/${file}\"")
+      message(FATAL_ERROR "with EMMY_INSTALL ${file} is not installed")
+    endif()
+  endforeach()
+  run(${configure} ${subfolder_arguments} -DEMMY_INSTALL=OFF)
   # Both are built with the parent's flags, and so agree.
   if(other_alignment)
     run(${configure} ${subfolder_arguments}
