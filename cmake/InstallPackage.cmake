@@ -30,8 +30,19 @@ install(FILES
   DESTINATION "${_emmy_package_folder}" COMPONENT development)
 
 set(_emmy_pc_folder "${CMAKE_INSTALL_LIBDIR}/pkgconfig")
-file(RELATIVE_PATH _emmy_prefix_from_pc "/${_emmy_pc_folder}" "/")
-string(REGEX REPLACE "/$" "" _emmy_prefix_from_pc "${_emmy_prefix_from_pc}")
+# Relative to where the file is, as far as the folders are relative.
+if(IS_ABSOLUTE "${_emmy_pc_folder}")
+  set(_emmy_pc_prefix "${CMAKE_INSTALL_PREFIX}")
+else()
+  file(RELATIVE_PATH _emmy_pc_prefix "/${_emmy_pc_folder}" "/")
+  string(REGEX REPLACE "/$" "" _emmy_pc_prefix "\${pcfiledir}/${_emmy_pc_prefix}")
+endif()
+foreach(_emmy_folder IN ITEMS LIBDIR INCLUDEDIR)
+  set(_emmy_pc_${_emmy_folder} "${CMAKE_INSTALL_${_emmy_folder}}")
+  if(NOT IS_ABSOLUTE "${_emmy_pc_${_emmy_folder}}")
+    string(PREPEND _emmy_pc_${_emmy_folder} "\${prefix}/")
+  endif()
+endforeach()
 list(TRANSFORM EMMY_EIGEN_DEFINITIONS PREPEND " -D"
   OUTPUT_VARIABLE _emmy_pc_definitions)
 list(JOIN _emmy_pc_definitions "" _emmy_pc_definitions)

@@ -187,6 +187,21 @@ else()  # subfolder, fetched
       message(FATAL_ERROR "with EMMY_INSTALL ${file} is not installed")
     endif()
   endforeach()
+  # Folders may be absolute, each by itself.
+  run(${configure} ${subfolder_arguments} -DCMAKE_INSTALL_PREFIX=/opt/p
+    -DCMAKE_INSTALL_LIBDIR=/opt/x/lib)
+  file(READ "${SCRATCH}/build/${folder}/emmy.pc" text)
+  if(NOT text MATCHES
+      "^prefix=/opt/p\nlibdir=/opt/x/lib\nincludedir=\\\${prefix}/include\n")
+    message(FATAL_ERROR "with an absolute folder of libraries: ${text}")
+  endif()
+  run(${configure} ${subfolder_arguments} -DCMAKE_INSTALL_LIBDIR=lib/here
+    -DCMAKE_INSTALL_INCLUDEDIR=/opt/x/include)
+  file(READ "${SCRATCH}/build/${folder}/emmy.pc" text)
+  if(NOT text MATCHES
+      "libdir=\\\${prefix}/lib/here\nincludedir=/opt/x/include\n")
+    message(FATAL_ERROR "with an absolute folder of headers: ${text}")
+  endif()
   run(${configure} ${subfolder_arguments} -DEMMY_INSTALL=OFF)
   # Both are built with the parent's flags, and so agree.
   if(other_alignment)
