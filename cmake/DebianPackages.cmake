@@ -38,5 +38,15 @@ set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SHLIBDEPS OFF)
 set(CPACK_COMPONENT_DEVELOPMENT_DESCRIPTION
   "${PROJECT_DESCRIPTION}\nHeaders, the static library, and files for CMake and pkg-config.")
 
+# Each package has the licence where Debian looks for it; outside packages there
+# is one copy, that of the component `licence`.
+foreach(_emmy_component IN ITEMS PROGRAM LIBRARY DEVELOPMENT)
+  string(TOLOWER "${_emmy_component}" _emmy_component_name)
+  install(FILES "${PROJECT_SOURCE_DIR}/cmake/debian/copyright"
+    DESTINATION
+      "${CMAKE_INSTALL_DATADIR}/doc/${CPACK_DEBIAN_${_emmy_component}_PACKAGE_NAME}"
+    COMPONENT ${_emmy_component_name} EXCLUDE_FROM_ALL)
+endforeach()
+
 set(CPACK_OUTPUT_FILE_PREFIX "${PROJECT_BINARY_DIR}/packages")
 include(CPack)

@@ -1,8 +1,8 @@
 # `cmake --install`: libraries, headers, the program, the schema of case files,
-# a package for find_package(emmy), and emmy.pc for pkg-config.
+# the licence, a package for find_package(emmy), and emmy.pc for pkg-config.
 #
 # Components: `program`, `library` (what programs need that are linked to the
-# shared library), `development`.
+# shared library), `development`, `licence`.
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
@@ -56,3 +56,5 @@ if(EMMY_BUILD_VERIFICATION)
 endif()
 install(FILES "${PROJECT_SOURCE_DIR}/lib/emmy/io/case.schema.json"
   DESTINATION "${CMAKE_INSTALL_DATADIR}/emmy" COMPONENT program)
+install(FILES "${PROJECT_SOURCE_DIR}/LICENSE"
+  DESTINATION "${CMAKE_INSTALL_DOCDIR}" COMPONENT licence)
