@@ -1,4 +1,5 @@
-# `cpack` in the build folder: emmy, libemmy0.1 and libemmy-dev as .deb files.
+# `cpack` in the build folder: emmy, libemmy with its version in
+# the name, and libemmy-dev as .deb files.
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME emmy)
 set(CPACK_PACKAGE_VENDOR Emmy)

@@ -2,6 +2,7 @@
 file(REMOVE_RECURSE "${SCRATCH}")
 file(MAKE_DIRECTORY "${SCRATCH}")
 set(prefix "${SCRATCH}/prefix")
+string(REGEX MATCH "^[0-9]+\\.[0-9]+" series "${VERSION}")
 set(case "${SOURCE}/examples/paper_box.json")
 
 function(run)
@@ -26,7 +27,8 @@ endfunction()
 
 function(run_program)
   run(${ARGN})
-  if(NOT output MATCHES "^emmy [0-9]+\\.[0-9]+\\.[0-9]+\n")
+  string(FIND "${output}" "emmy ${VERSION}\n" place)
+  if(NOT place EQUAL 0)
     message(FATAL_ERROR "${ARGN} prints: ${output}")
   endif()
 endfunction()
@@ -98,7 +100,8 @@ if(WAY MATCHES "^(static|shared)$")
   run_program("${prefix}/bin/emmy" --version)
   # Files that were moved after installation still work.
   file(RENAME "${prefix}" "${SCRATCH}/moved")
-  run(${configure} "-DCMAKE_PREFIX_PATH=${SCRATCH}/moved" "-DEMMY_KIND=${WAY}")
+  run(${configure} "-DCMAKE_PREFIX_PATH=${SCRATCH}/moved" "-DEMMY_KIND=${WAY}"
+    "-DEMMY_VERSION=${series}")
   run("${CMAKE_COMMAND}" --build "${SCRATCH}/build")
   run_program("${SCRATCH}/build/consumer" "${case}")
   run(ldd "${SCRATCH}/build/consumer")
@@ -133,10 +136,10 @@ elseif(WAY STREQUAL pkg_config)
   run("${COMPILER}" -std=c++20 "${SOURCE}/tests/package/consumer/consumer.cc"
     ${options} "-Wl,-rpath,${library}" -o "${SCRATCH}/consumer")
   run_program("${SCRATCH}/consumer" "${case}")
-  run("${pkg_config}" --modversion emmy)
+  run("${pkg_config}" --exists --print-errors "emmy = ${VERSION}")
 elseif(WAY STREQUAL debian)
   run(bash "${SOURCE}/tests/package/debian_test" "${BUILD}" "${SCRATCH}"
-    "${case}")
+    "${case}" "${series}")
 else()  # subfolder, fetched
   # Configuring is nearly enough: what is built is the same.
   if(WAY STREQUAL subfolder)
