@@ -17,6 +17,7 @@ struct BuildInfo {
   std::string flags;     // "-O2 -DNDEBUG -ffp-contract=off"
 };
 
+// Of the library that the program is linked to.
 EMMY_EXPORT BuildInfo GetBuildInfo();
 
 }  // namespace emmy

@@ -40,6 +40,7 @@ struct EnergyRecord {
   }
 };
 
+// The same of momentum [kg m/s] or angular momentum [kg m²/s].
 struct MomentumRecord {
   Vector3d initial = Vector3d::Zero();
   Vector3d final = Vector3d::Zero();

@@ -40,6 +40,7 @@ struct Invariants {
   }
 };
 
+// Of `state`, which is one of `model`.
 EMMY_EXPORT Invariants MeasureInvariants(const Model& model,
                                          const State& state);
 

@@ -13,6 +13,7 @@
 
 namespace emmy {
 
+// Where a point is, and how fast.
 struct PointMotion {
   Vector3d position;  // Inertial [m].
   Vector3d velocity;  // [m/s]
@@ -26,6 +27,7 @@ EMMY_EXPORT PointMotion ObservePoint(const Model& model, const State& state,
 EMMY_EXPORT PointMotion ObserveNode(const Model& model, const State& state,
                                     size_t node);
 
+// The strain and the force of a truss, cable or spring.
 struct LineObservation {
   double strain = 0.0;  // Green–Lagrange; a spring: see LineElement::Strain.
   double force = 0.0;   // [N], tension positive.

@@ -39,6 +39,7 @@ class EMMY_EXPORT LineElement {
   static LineElement Cable(double natural_length, double axial_stiffness);
   static LineElement Spring(double natural_length, double stiffness);
 
+  // How a line answers to Δs.
   struct Response {
     double increment;       // Δy
     double tension_factor;  // t of (LINE-2) [N/m]

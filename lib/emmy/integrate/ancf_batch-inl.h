@@ -39,6 +39,7 @@ struct PackStrain {
   Pack3 shear;
 };
 
+// What a step adds to the bodies of a pack, but for their centres.
 struct AncfIncrement {
   Pack33 gradients;
   Pack33 gradients_low;

@@ -31,12 +31,14 @@ struct AncfBodyStart {
   Vector6d strain_compensation;
 };
 
+// What a step adds to a body, but for its centre.
 struct AncfBodyIncrement {
   Matrix3d gradients = Matrix3d::Zero();  // Δe
   Matrix3d rates = Matrix3d::Zero();      // Δw
   Vector6d strain = Vector6d::Zero();     // Δε
 };
 
+// How the iteration of a step of one body ended.
 struct [[nodiscard]] BodyStepResult {
   Termination termination = Termination::kMaxIterations;
   int iterations = 0;

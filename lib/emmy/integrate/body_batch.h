@@ -28,6 +28,7 @@
 
 namespace emmy {
 
+// How a batch is stepped.
 struct BodyBatchOptions {
   double time_step = 0.0;   // Δt [s]; negative steps go back in time.
   int num_threads = 1;      // At least 1.
@@ -42,6 +43,7 @@ struct BatchFailure {
   std::string message;
 };
 
+// What became of the steps of a batch.
 struct [[nodiscard]] BatchReport {
   int64_t iterations = 0;              // Sum over bodies and steps.
   int64_t ordinary_steps = 0;          // Taken by the steps of one body.

@@ -43,6 +43,8 @@ struct BodyNumbersOf {
 
 using BodyStartNumbers = BodyNumbersOf<const double>;
 
+// As BodyNumbersOf, of a state that is written, with the differences of
+// velocities for the next start.
 struct BodyNumbers : BodyNumbersOf<double> {
   BodyNumbers(const ModelBody& body, State& state)
       : BodyNumbersOf(body, state) {

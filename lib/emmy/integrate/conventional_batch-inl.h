@@ -24,6 +24,7 @@ HWY_BEFORE_NAMESPACE();
 namespace emmy {
 namespace HWY_NAMESPACE {
 
+// Compensated sums of the components of vectors.
 struct PackSum3 {
   PackSum x, y, z;
 };

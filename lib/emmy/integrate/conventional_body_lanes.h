@@ -47,6 +47,7 @@ struct ConventionalBodyLanes {
   alignas(32) double half_gyration[4] = {};  // ½ Δt d/J [s]
 };
 
+// What a step adds to a body, but for its centre: one in four lanes.
 struct ConventionalLanesIncrement {
   double quaternion[4] = {};
   // From the second number on: the first is not meaningful.

@@ -22,6 +22,8 @@
 
 namespace emmy {
 
+// A body at the start of a step: values, and what compensated sums keep of
+// them.
 struct ConventionalBodyStart {
   Vector4d quaternion;
   Vector4d quaternion_compensation;
@@ -29,6 +31,7 @@ struct ConventionalBodyStart {
   Vector3d angular_velocity_compensation;
 };
 
+// What a step adds to a body, but for its centre.
 struct ConventionalBodyIncrement {
   Vector4d quaternion = Vector4d::Zero();
   Vector3d angular_velocity = Vector3d::Zero();      // ΔW

@@ -37,6 +37,7 @@
 
 namespace emmy {
 
+// How the equations of a structure are solved.
 struct CoupledStepOptions {
   NewtonOptions newton;
   SymmetricFactor::Method method = SymmetricFactor::Method::kAutomatic;

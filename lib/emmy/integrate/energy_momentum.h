@@ -30,6 +30,7 @@
 
 namespace emmy {
 
+// Order and length of a step, and how its equations are solved.
 struct IntegratorOptions {
   int order = 2;           // 2, 4 or 6.
   double time_step = 0.0;  // Δt [s]; negative steps go back in time.

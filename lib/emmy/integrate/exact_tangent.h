@@ -15,6 +15,7 @@
 
 namespace emmy {
 
+// Where the Jacobian is taken.
 struct ExactTangentPoint {
   const Matrix3Xd& mean;        // q̄
   const Matrix3Xd& end;         // q₁

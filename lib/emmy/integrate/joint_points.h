@@ -28,6 +28,7 @@ struct PointBlock {
   static constexpr int kSecond = 3;
   static constexpr int kSize = 6;
 };
+// The rate of the gap of a joint at the start of a step.
 struct JointRateBlock {
   static constexpr int kRate = 0;  // G w₀, by values
   static constexpr int kRest = 3;  // and by compensations.

@@ -28,6 +28,7 @@ struct JointSums {
   double load_work = 0.0;
 };
 
+// The corrections of all velocities in one iteration.
 struct JointCorrection {
   double largest = 0.0;  // Of |δw|.
   bool is_finite = false;

@@ -32,6 +32,7 @@ struct Pack {
 
   hn::Vec<PackTag> v;
 };
+// A truth value in each lane.
 struct Flag {
   hn::Mask<PackTag> m;
 };
@@ -77,6 +78,7 @@ HWY_INLINE Pack OrZero(Flag condition, Pack yes) {
   return {hn::IfThenElseZero(condition.m, yes.v)};
 }
 
+// A vector in each lane.
 struct Pack3 {
   Pack x, y, z;
 };

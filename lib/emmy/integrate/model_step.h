@@ -29,6 +29,7 @@
 
 namespace emmy {
 
+// How the equations of a step are solved; see IntegratorOptions.
 struct ModelStepOptions {
   NewtonOptions newton;
   bool always_full_newton = false;

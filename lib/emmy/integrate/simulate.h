@@ -17,6 +17,7 @@ namespace emmy {
 // Called after every accepted step; returning false ends the run.
 using Observer = std::function<bool(const State&, const StepReport&)>;
 
+// What became of a run.
 struct [[nodiscard]] SimulationReport {
   Termination termination = Termination::kConverged;  // Of the last step.
   bool stopped_by_observer = false;
@@ -33,6 +34,8 @@ struct [[nodiscard]] SimulationReport {
   }
 };
 
+// Takes up to `num_steps` steps from `state`, which ends after the last one
+// that was accepted. Without an observer nothing is called.
 EMMY_EXPORT SimulationReport Simulate(EnergyMomentumIntegrator& integrator,
                                       State& state, int64_t num_steps,
                                       const Observer& observer);

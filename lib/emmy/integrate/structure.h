@@ -14,28 +14,34 @@
 namespace emmy {
 
 struct Structure {
+  // With the places of its numbers in the structure.
   struct Body {
     const ModelBody* body = nullptr;
     int first = 0;         // Local number of x̄.
     int first_strain = 0;  // Local.
   };
+  // A truss, cable or spring.
   struct Line {
     const ModelLine* line = nullptr;
     std::vector<WeightedVector> terms;  // Of d, local numbers.
     int strain = 0;                     // Local.
   };
+  // A joint: Σ weight · q over its terms is constant.
   struct Constraint {
     size_t index = 0;  // Of the model.
     std::vector<WeightedVector> terms;
   };
+  // A constant force at a point of the structure.
   struct Force {
     std::vector<WeightedVector> terms;
     Vector3d force = Vector3d::Zero();
   };
+  // A constant torque on a body.
   struct Torque {
     int first = 0;  // Local number of x̄.
     Vector3d torque = Vector3d::Zero();
   };
+  // An entry of the mass matrix.
   struct Mass {
     int row = 0;
     int column = 0;  // ≤ row: each pair once.

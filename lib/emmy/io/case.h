@@ -16,6 +16,7 @@ namespace emmy {
 
 enum class Method { kEnergyMomentum };
 
+// How a case is integrated, and for how long.
 struct IntegratorSettings {
   Method method = Method::kEnergyMomentum;
   int order = 2;           // 2, 4 or 6.

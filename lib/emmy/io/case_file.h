@@ -30,6 +30,7 @@ EMMY_EXPORT absl::StatusOr<Case> ParseCase(
 EMMY_EXPORT absl::StatusOr<Case> ReadCaseFile(
     const std::string& path, const std::vector<std::string>& overrides = {});
 
+// A case, and what is made of it.
 struct LoadedCase {
   Case description;
   Model model;

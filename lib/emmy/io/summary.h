@@ -17,6 +17,7 @@ enum class RunStatus {
   kInterrupted,  // Stopped from outside (Ctrl-C).
 };
 
+// What became of a run.
 struct RunSummary {
   std::string case_name;
   RunStatus status = RunStatus::kFailed;

@@ -47,6 +47,7 @@ struct ModelBody {
   }
 };
 
+// A node, which may be tied to a point of a body.
 struct ModelNode {
   std::string name;
   Point point;  // Itself, or what it is tied to.
@@ -93,11 +94,13 @@ struct ModelJoint {
   bool to_ground() const { return points[1].is_ground(); }
 };
 
-// A constant force at a point; a constant torque on a body.
+// A constant force at a point.
 struct ModelForce {
   Point point;
   Vector3d force = Vector3d::Zero();  // [N]
 };
+
+// A constant torque on a body.
 struct ModelTorque {
   size_t body = 0;
   Vector3d torque = Vector3d::Zero();  // [N m]

@@ -11,6 +11,7 @@
 
 namespace emmy {
 
+// What a description describes.
 struct BuiltModel {
   Model model;
   State state;  // At time 0.

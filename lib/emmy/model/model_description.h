@@ -46,6 +46,7 @@ struct TensorInertia {
   double volume = 0.0;                 // [m^3], > 0; scales the penalty.
 };
 
+// w + x i + y j + z k, not zero; BuildModel normalises it.
 struct Quaternion {
   double w = 1.0;
   double x = 0.0;
@@ -53,10 +54,12 @@ struct Quaternion {
   double z = 0.0;
 };
 
+// An orientation by one turn from the inertial axes.
 struct RotationVector {
   Vector3d vector = Vector3d::Zero();  // Axis times angle [rad].
 };
 
+// A rigid body, in either formulation, and how it starts.
 struct RigidBodyDescription {
   std::string name;
   Formulation formulation = Formulation::kAncf;
@@ -72,17 +75,21 @@ struct RigidBodyDescription {
   Start start = Start::kUndeformed;
 };
 
-// A point fixed in a body, a node, or a point fixed in space.
+// A point fixed in a body.
 struct BodyPoint {
   std::string body;
   Vector3d point = Vector3d::Zero();  // ξ in body axes [m].
 };
+// A node, by its name.
 struct NodePoint {
   std::string node;
 };
+// A point fixed in space.
 struct GroundPoint {
   Vector3d position = Vector3d::Zero();  // [m]
 };
+
+// Any of these points.
 using PointDescription = std::variant<BodyPoint, NodePoint, GroundPoint>;
 
 // The node starts with the velocity of the body's material point there.
@@ -90,6 +97,7 @@ struct MovesWith {
   std::string body;
 };
 
+// A point with its own mass, or none.
 struct NodeDescription {
   std::string name;
   double mass = 0.0;                     // [kg], >= 0.
@@ -99,6 +107,7 @@ struct NodeDescription {
   bool fixed = false;
 };
 
+// A truss or cable between two points.
 struct TrussDescription {
   std::string name;
   std::array<PointDescription, 2> ends;
@@ -109,6 +118,7 @@ struct TrussDescription {
   std::optional<double> length;  // Natural length [m]; else the initial one.
 };
 
+// A linear spring between two points.
 struct SpringDescription {
   std::string name;
   std::array<PointDescription, 2> ends;
@@ -116,10 +126,12 @@ struct SpringDescription {
   double length = 0.0;     // Natural length [m], >= 0.
 };
 
+// A force at a point.
 struct ForceLoad {
   PointDescription point;
   Vector3d force = Vector3d::Zero();  // Constant, inertial [N].
 };
+// A torque on a body.
 struct TorqueLoad {
   std::string body;
   Vector3d torque = Vector3d::Zero();  // Constant, inertial [N m].

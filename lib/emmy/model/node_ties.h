@@ -23,9 +23,11 @@ struct ResolvedBodyPoint {
   size_t body = 0;
   Vector3d xi = Vector3d::Zero();
 };
+// A node.
 struct ResolvedNode {
   size_t node = 0;
 };
+// A point fixed in space.
 struct ResolvedGround {
   Vector3d position = Vector3d::Zero();
 };

@@ -11,6 +11,7 @@
 
 namespace emmy {
 
+// When an iteration ends.
 struct NewtonOptions {
   // Empty: iterate until corrections stop shrinking at the round-off floor, or
   // the next would be lost in it (EM-5). Else: converged when the largest
@@ -27,6 +28,7 @@ enum class Termination {
   kNonFinite,        // The state is unchanged; a NaN or infinity appeared.
 };
 
+// How the iteration of a step ended.
 struct [[nodiscard]] StepReport {
   Termination termination = Termination::kMaxIterations;
   // The most any part of the model needed; for orders 4 and 6 summed over the

@@ -23,6 +23,7 @@ struct PolarDecomposition {
   bool ok = false;
 };
 
+// (ATT-1); `ok` says whether there is one.
 EMMY_EXPORT PolarDecomposition DecomposePolar(const Matrix3d& f);
 
 }  // namespace emmy
