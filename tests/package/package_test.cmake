@@ -210,8 +210,9 @@ else()  # subfolder, fetched
   # Both are built with the parent's flags, and so agree.
   if(other_alignment)
     run(${configure} ${subfolder_arguments}
-      "-DEMMY_PARENT_OPTIONS=${other_alignment}")
-    run(ninja -C "${SCRATCH}/build" CMakeFiles/consumer.dir/consumer.cc.o)
+      -DEMMY_PARENT_OPTIONS=-march=sapphirerapids)
+    run(ninja -C "${SCRATCH}/build" CMakeFiles/consumer.dir/consumer.cc.o
+      ${folder}/lib/emmy/CMakeFiles/emmy.dir/numerics/panel_product.cc.o)
   endif()
 endif()
 file(REMOVE_RECURSE "${SCRATCH}")
