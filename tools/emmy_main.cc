@@ -1,7 +1,12 @@
 // The program `emmy`: commands on case files. Each command is a file in
 // tools/cli; what they share is the exit status (exit_status.h).
 
+#include <fcntl.h>
+#include <unistd.h>
+
 #include <CLI/CLI.hpp>
+#include <cerrno>
+#include <csignal>
 #include <cstdio>
 #include <exception>
 #include <string>
@@ -71,6 +76,19 @@ Exit status: 0 done; 1 a check failed or the computation could not go on;
                     kExitBadInput);
 }
 
+// A standard stream that the caller has closed leaves its number to the next
+// file that is opened, and messages would go into that. Instead it is there but
+// of no use: writing to it, or reading from it, fails.
+bool ReserveStreams() {
+  for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
+    if (fcntl(stream, F_GETFD) != -1 || errno != EBADF) continue;
+    const int useless = stream == STDIN_FILENO ? O_WRONLY : O_RDONLY;
+    // The lowest number that is free.
+    if (open("/dev/null", useless) != stream) return false;
+  }
+  return true;
+}
+
 // The exit status, once standard output has taken what was printed: a full
 // disk is seen only when the buffer is emptied.
 int Finish(int exit_status) {
@@ -86,6 +104,9 @@ int Finish(int exit_status) {
 }  // namespace emmy
 
 int main(int argc, char** argv) {
+  if (!emmy::ReserveStreams()) return emmy::kExitFailed;
+  // A file that may not grow further (`ulimit -f`) is one on a full disk.
+  static_cast<void>(std::signal(SIGXFSZ, SIG_IGN));
   try {
     return emmy::Finish(emmy::Main(argc, argv));
   } catch (const std::exception& error) {  // Such as: out of memory.
