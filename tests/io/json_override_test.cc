@@ -6,10 +6,13 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "absl/strings/str_cat.h"
+
 namespace emmy {
 namespace {
 
 using nlohmann::json;
+using ::testing::HasSubstr;
 
 // The document after the change, or the error as text.
 json Changed(const std::string& document, const std::string& setting) {
@@ -64,6 +67,18 @@ TEST(JsonOverrideTest, RejectsAnElementThatDoesNotExist) {
 TEST(JsonOverrideTest, RejectsAPlaceInsideANumber) {
   EXPECT_EQ(Changed(R"({"a": 1.5})", "/a/b=0"),
             "/a/b: no such place, /a is 1.5");
+}
+
+TEST(JsonOverrideTest, RejectsTextThatIsNotUtf8) {
+  for (const char* bad :
+       {"\xDF", "\xC0\x80", "\xED\xA0\x80", "\xF4\x90\x80\x80", "\xE2\x82"}) {
+    EXPECT_THAT(Changed("{}", absl::StrCat("/a=x", bad)),
+                HasSubstr("must be UTF-8, got \"/a=x"));
+    EXPECT_THAT(Changed("{}", absl::StrCat("/x", bad, "=1")),
+                HasSubstr("must be UTF-8, got \"/x"));
+  }
+  EXPECT_EQ(Changed("{}", "/\xC3\x9F=\xE2\x82\xAC\"")["\xC3\x9F"],
+            "\xE2\x82\xAC\"");
 }
 
 TEST(JsonOverrideTest, RejectsWhatIsNotPointerAndValue) {

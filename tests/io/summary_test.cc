@@ -67,6 +67,17 @@ TEST(SummaryTest, SaysWhyARunFailed) {
   EXPECT_EQ(json["message"], "step 3: no");
 }
 
+TEST(SummaryTest, HasAMessageThatIsUtf8WhateverItNames) {
+  RunSummary summary = Sample();
+  summary.message =
+      "Ma\xDF"
+      "e/history.csv: no";
+  const nlohmann::json json = nlohmann::json::parse(WriteSummary(summary));
+  EXPECT_EQ(json["message"],
+            "Ma\xEF\xBF\xBD"
+            "e/history.csv: no");
+}
+
 TEST(SummaryTest, HasNullWhereANumberIsNotFinite) {
   RunSummary summary = Sample();
   summary.energy.final = std::numeric_limits<double>::quiet_NaN();

@@ -56,6 +56,10 @@ absl::StatusOr<JsonOverride> ParseOverride(absl::string_view setting) {
         absl::StrCat("must have the form /json/pointer=value, got ",
                      ShowJson(std::string(setting))));
   }
+  if (!IsUtf8(setting)) {
+    return absl::InvalidArgumentError(
+        absl::StrCat("must be UTF-8, got ", ShowJson(std::string(setting))));
+  }
   const absl::string_view text = setting.substr(equals + 1);
   absl::StatusOr<Json> value = ParseJson(text);
   return JsonOverride{

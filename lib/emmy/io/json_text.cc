@@ -241,6 +241,15 @@ std::string ShowJson(const Json& value) {
   return Shorten(Printable(value), kMaxShown);
 }
 
+bool IsUtf8(absl::string_view text) {
+  std::string quoted = absl::StrCat("\"", text, "\"");
+  for (char& c : quoted) {  // What JSON has rules of its own about.
+    if (static_cast<unsigned char>(c) < 0x80U) c = 'a';
+  }
+  quoted.front() = quoted.back() = '"';
+  return Json::accept(quoted);
+}
+
 std::string Shorten(std::string text, size_t max_bytes) {
   if (text.size() <= max_bytes) return text;
   size_t end = max_bytes - 3;

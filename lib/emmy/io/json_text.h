@@ -35,6 +35,9 @@ std::string FormatJson(const nlohmann::ordered_json& value);
 // `value` as part of a message: on one line, and shortened where it is long.
 std::string ShowJson(const nlohmann::json& value);
 
+// Whether `text` is valid UTF-8, as JSON text must be.
+bool IsUtf8(absl::string_view text);
+
 // `text` with at most `max_bytes` bytes, cut between UTF-8 characters and then
 // ending in "...".
 std::string Shorten(std::string text, size_t max_bytes);

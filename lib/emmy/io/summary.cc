@@ -11,6 +11,11 @@ namespace {
 
 using OrderedJson = nlohmann::ordered_json;
 
+// Text that may have file names in it, which are any bytes.
+OrderedJson ToJson(const std::string& text) {
+  return OrderedJson::parse(OrderedJson(text).dump(
+      -1, ' ', false, OrderedJson::error_handler_t::replace));
+}
 OrderedJson ToJson(double x) { return x; }
 OrderedJson ToJson(const Vector3d& v) { return {v.x(), v.y(), v.z()}; }
 
@@ -43,7 +48,7 @@ std::string WriteSummary(const RunSummary& summary) {
   OrderedJson json = {{"format", "emmy-summary/1"},
                       {"case", summary.case_name},
                       {"status", StatusName(summary.status)}};
-  if (!summary.message.empty()) json["message"] = summary.message;
+  if (!summary.message.empty()) json["message"] = ToJson(summary.message);
   json["steps"] = summary.steps;
   json["time"] = summary.time;
   json["wall_seconds"] = summary.wall_seconds;
