@@ -63,8 +63,9 @@ ExitStatus Generate(const GenerateArguments& arguments) {
     return kExitDone;
   }
   const absl::Status status = WriteTextFile(arguments.output, text);
-  if (!status.ok()) return PrintError(status, kExitBadInput);
-  return kExitDone;
+  if (status.ok()) return kExitDone;
+  return PrintError(status,
+                    absl::IsDataLoss(status) ? kExitFailed : kExitBadInput);
 }
 
 }  // namespace

@@ -19,8 +19,20 @@ absl::StatusOr<std::string> ReadTextFile(const std::string& path,
 
 // Replaces the file as a whole: `path` holds either its old content or `text`,
 // never a part, even if the machine stops; on return `text` is on the disk.
-// Until then it is beside it, as `path`.tmp. Messages begin with the path.
+// Until then it is beside it, in a TemporaryFile. Where `path` is a link, the
+// file it leads to is replaced; what is there and no regular file (a device, a
+// pipe, /dev/stdout) is written to. Messages begin with the path. Fails with
+// kDataLoss if part may have been written, else with kPermissionDenied.
 absl::Status WriteTextFile(const std::string& path, absl::string_view text);
+
+// Whether WriteTextFile can begin to replace the file. Changes nothing.
+absl::Status CheckReplaceable(const std::string& path);
+
+// Removes the file, or the one that the link leads to, if it is a regular one.
+void RemoveTextFile(const std::string& path);
+
+// Where `path` leads, which need not exist.
+absl::StatusOr<std::string> FollowLinks(const std::string& path);
 
 // Waits until the folder that holds `path` is on the disk: the name of a file
 // just made there, which syncing the file alone does not save.
