@@ -9,6 +9,7 @@
 #include "emmy/io/case_file.h"
 #include "tools/cli/describe_case.h"
 #include "tools/cli/print.h"
+#include "tools/cli/run_files.h"
 
 namespace emmy {
 namespace {
@@ -42,7 +43,8 @@ Command AddCheckCommand(CLI::App& app) {
   const auto arguments = std::make_shared<CheckArguments>();
   options->add_option("CASE", arguments->case_path, "Case file (JSON)")
       ->required()
-      ->type_name("");
+      ->type_name("")
+      ->check(CLI::Validator(CheckNotEmpty, ""));
   options
       ->add_option("--set", arguments->overrides,
                    "Replace a value of the case (repeatable)")

@@ -12,6 +12,7 @@
 #include "emmy/io/case_writer.h"
 #include "emmy/io/text_file.h"
 #include "tools/cli/print.h"
+#include "tools/cli/run_files.h"
 #include "verification/models/large_models.h"
 
 namespace emmy {
@@ -86,7 +87,8 @@ Command AddGenerateCommand(CLI::App& app) {
   options
       ->add_option("--output", arguments->output,
                    "File to write; standard output if not given")
-      ->type_name("FILE");
+      ->type_name("FILE")
+      ->check(CLI::Validator(CheckNotEmpty, ""));
   options->final_callback([arguments] { ReadSize(arguments.get()); });
   options->footer(
       R"(Models, of size N, from 2 to what makes a file that emmy run reads (256 MiB):
@@ -96,7 +98,7 @@ Command AddGenerateCommand(CLI::App& app) {
   conventional_chain  up to 400000  the same of conventional bodies
   trussed_boxes       up to 150000  N boxes, neighbours joined by four trusses
 
-Exit status: 0 done; 2 bad usage, or the file cannot be written.
+Exit status: 0 done; 1 the file cannot be written; 2 bad usage.
 
 Examples:
   emmy generate net --size 60 --output net_60.json

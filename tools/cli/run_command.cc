@@ -1,14 +1,9 @@
 #include "tools/cli/run_command.h"
 
-#include <cerrno>
 #include <cstdint>
-#include <cstdio>
-#include <cstring>
-#include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
-#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -26,6 +21,7 @@
 #include "tools/cli/interrupt.h"
 #include "tools/cli/print.h"
 #include "tools/cli/run_case.h"
+#include "tools/cli/run_files.h"
 
 namespace emmy {
 namespace {
@@ -41,6 +37,9 @@ struct RunArguments {
   std::optional<int64_t> checkpoint_every;
   std::string resume;
 
+  RunFiles files() const {
+    return {case_path, output, checkpoint_path(), resume};
+  }
   // Where checkpoints go; none: "".
   const std::string& checkpoint_path() const {
     return checkpoint.empty() ? resume : checkpoint;
@@ -93,39 +92,19 @@ absl::StatusOr<Checkpoint> LoadCheckpoint(
   return checkpoint;
 }
 
-// Whether checkpoints can be written, before anything else is. A checkpoint
-// that is there already may be worth days.
-absl::Status CheckCheckpointPath(const RunArguments& arguments) {
-  const std::string& path = arguments.checkpoint_path();
-  if (path.empty()) return absl::OkStatus();
-  std::error_code ignored;
-  if (path != arguments.resume && std::filesystem::exists(path, ignored)) {
-    return absl::InvalidArgumentError(absl::StrCat(
-        path, ": exists: go on from it by --resume ", path, ", or remove it"));
-  }
-  const std::string temporary = path + ".tmp";
-  std::FILE* file = std::fopen(temporary.c_str(), "wb");
-  if (file == nullptr) {
-    return absl::InvalidArgumentError(
-        absl::StrCat(path, ": cannot be written: ", std::strerror(errno)));
-  }
-  static_cast<void>(std::fclose(file));  // Nothing was written.
-  std::filesystem::remove(temporary, ignored);
-  return absl::OkStatus();
-}
-
-// Makes the folder and begins the history, or goes on with it. A summary of an
-// earlier run does not belong to it.
-absl::StatusOr<HistoryWriter> BeginOutput(const std::string& directory,
+// Begins the history in the folder, or goes on with it. A summary of an earlier
+// run does not belong to it.
+absl::StatusOr<HistoryWriter> BeginOutput(const RunFiles& files,
                                           const Model& model,
                                           const Checkpoint* resume) {
-  const std::string path = directory + "/history.csv";
+  const absl::Status replaceable = CheckReplaceable(files.summary());
+  if (!replaceable.ok()) return replaceable;
+  const std::string path = files.history();
   absl::StatusOr<HistoryWriter> history =
       resume == nullptr ? HistoryWriter::Create(path, model)
                         : HistoryWriter::Resume(path, model, *resume->history);
   if (!history.ok()) return history.status();
-  std::error_code ignored;
-  std::filesystem::remove(directory + "/summary.json", ignored);
+  RemoveTextFile(files.summary());
   const absl::Status synced = SyncFolderOf(path);
   if (!synced.ok()) return synced;
   return history;
@@ -206,7 +185,7 @@ ExitStatus Report(const RunArguments& arguments, const RunResult& result,
   if (history_path.empty()) {
     Print(WriteSummary(summary));
   } else {
-    const std::string path = arguments.output + "/summary.json";
+    const std::string path = arguments.files().summary();
     const absl::Status written = WriteTextFile(path, WriteSummary(summary));
     if (!written.ok()) exit_status = PrintError(written, kExitFailed);
     if (written.ok() && !arguments.quiet) {
@@ -232,6 +211,10 @@ ExitStatus Run(const RunArguments& arguments) {
             "emmy run: --checkpoint-every needs --checkpoint or --resume"),
         kExitBadInput);
   }
+  const RunFiles files = arguments.files();
+  absl::Status usable = CheckFilesApart(files);
+  if (usable.ok()) usable = CheckCheckpointIsNew(files);
+  if (!usable.ok()) return PrintError(usable, kExitBadInput);
   absl::StatusOr<LoadedCase> loaded =
       LoadCaseFile(arguments.case_path, arguments.overrides);
   if (!loaded.ok()) return PrintError(loaded.status(), kExitBadInput);
@@ -256,20 +239,20 @@ ExitStatus Run(const RunArguments& arguments) {
 
   // All input has been checked: only now is anything written.
   CatchInterrupts();
-  std::optional<HistoryWriter> history;
-  if (!arguments.output.empty()) {
-    const absl::Status made = MakeDirectory(arguments.output);
-    if (!made.ok()) return PrintError(made, kExitBadInput);
+  MadeFolder folder;
+  if (!files.output.empty()) usable = folder.Make(files.output);
+  if (usable.ok() && !files.checkpoint.empty()) {
+    usable = CheckReplaceable(files.checkpoint);
   }
-  const absl::Status writable = CheckCheckpointPath(arguments);
-  if (!writable.ok()) return PrintError(writable, kExitBadInput);
-  if (!arguments.output.empty()) {
-    absl::StatusOr<HistoryWriter> begun =
-        BeginOutput(arguments.output, loaded->model,
-                    resume.has_value() ? &*resume : nullptr);
+  if (!usable.ok()) return PrintError(usable, kExitBadInput);
+  std::optional<HistoryWriter> history;
+  if (!files.output.empty()) {
+    absl::StatusOr<HistoryWriter> begun = BeginOutput(
+        files, loaded->model, resume.has_value() ? &*resume : nullptr);
     if (!begun.ok()) return RefuseOrFail(begun.status());
     history = *std::move(begun);
   }
+  folder.Keep();
   const RunResult result =
       RunCase({.num_steps = num_steps,
                .quiet = arguments.quiet,
@@ -287,11 +270,13 @@ Command AddRunCommand(CLI::App& app) {
   const auto arguments = std::make_shared<RunArguments>();
   options->add_option("CASE", arguments->case_path, "Case file (JSON)")
       ->required()
-      ->type_name("");
+      ->type_name("")
+      ->check(CLI::Validator(CheckNotEmpty, ""));
   options
       ->add_option("-o,--output", arguments->output,
                    "Write history.csv and summary.json to DIR")
-      ->type_name("DIR");
+      ->type_name("DIR")
+      ->check(CLI::Validator(CheckNotEmpty, ""));
   options
       ->add_option("--set", arguments->overrides,
                    "Replace a value of the case (repeatable)")
@@ -310,7 +295,8 @@ Command AddRunCommand(CLI::App& app) {
   options
       ->add_option("--checkpoint", arguments->checkpoint,
                    "Keep in FILE what it takes to go on")
-      ->type_name("FILE");
+      ->type_name("FILE")
+      ->check(CLI::Validator(CheckNotEmpty, ""));
   options
       ->add_option("--checkpoint-every", arguments->checkpoint_every,
                    "Write it every N steps (default: every minute)")
@@ -319,7 +305,8 @@ Command AddRunCommand(CLI::App& app) {
   options
       ->add_option("--resume", arguments->resume,
                    "Go on from the checkpoint FILE, and keep it up")
-      ->type_name("FILE");
+      ->type_name("FILE")
+      ->check(CLI::Validator(CheckNotEmpty, ""));
   options->add_flag("-q,--quiet", arguments->quiet,
                     "No progress bar and no report");
   options->footer(

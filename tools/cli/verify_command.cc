@@ -15,6 +15,7 @@
 #include "absl/strings/str_cat.h"
 #include "emmy/io/text_file.h"
 #include "tools/cli/print.h"
+#include "tools/cli/run_files.h"
 #include "verification/registry.h"
 #include "verification/report/claim_table.h"
 #include "verification/report/environment.h"
@@ -172,7 +173,8 @@ Command AddVerifyCommand(CLI::App& app,
                    "Write the report into this directory, which is made if "
                    "needed: index.html, report.json, junit.xml, and each "
                    "figure as CSV, gnuplot script and SVG")
-      ->type_name("DIR");
+      ->type_name("DIR")
+      ->check(CLI::Validator(CheckNotEmpty, ""));
   options->footer(R"(
 Each claim is one line: id, verdict, the value closest to its bound, the bound,
 the part of it that is left (margin). Failures are repeated at the end. Exit
