@@ -3,12 +3,14 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cstdint>
 #include <cstdlib>
 #include <filesystem>
 #include <limits>
 #include <string>
 #include <vector>
 
+#include "absl/strings/str_cat.h"
 #include "absl/strings/str_split.h"
 #include "emmy/diagnostics/invariants.h"
 #include "emmy/io/case_file.h"
@@ -147,6 +149,37 @@ TEST_F(HistoryTest, EveryRowIsOnDiskAsSoonAsItIsWritten) {
     EXPECT_EQ(Lines().size(), rows);
     ASSERT_TRUE(writer->Write(built.model, built.state, invariants, 0).ok());
   }
+}
+
+// How often this process has written to anything; -1 if the system does not
+// say.
+int64_t NumberOfWrites() {
+  const std::string io = ReadTextFile("/proc/self/io", 4096).value_or("");
+  const std::string key = "syscw: ";
+  const size_t place = io.find(key);
+  if (place == std::string::npos) return -1;
+  return std::strtoll(io.c_str() + place + key.size(), nullptr, 10);
+}
+
+// So that no reader sees part of it, as of one that fills a buffer.
+TEST_F(HistoryTest, ALongRowIsWrittenInOnePiece) {
+  if (NumberOfWrites() < 0) GTEST_SKIP() << "no count of writes here";
+  ModelDescription description;
+  for (int i = 0; i < 2000; ++i) {
+    description.nodes.push_back(
+        {.name = absl::StrCat(i),
+         .mass = 1.0,
+         .position = Vector3d(0.1 * i, 1.0 / 3.0, 2.0 / 3.0)});
+  }
+  const BuiltModel built = BuildModel(description).value();
+  absl::StatusOr<HistoryWriter> writer =
+      HistoryWriter::Create(path_, built.model);
+  ASSERT_TRUE(writer.ok()) << writer.status();
+  const Invariants invariants = MeasureInvariants(built.model, built.state);
+  const int64_t before = NumberOfWrites();
+  ASSERT_TRUE(writer->Write(built.model, built.state, invariants, 0).ok());
+  EXPECT_EQ(NumberOfWrites() - before, 1);
+  EXPECT_GT(Lines()[1].size(), 100000u);
 }
 
 TEST_F(HistoryTest, RefusesARowWithANumberThatIsNotFinite) {

@@ -20,6 +20,7 @@
 #include "emmy/base/crc64.h"
 #include "emmy/diagnostics/body_motion.h"
 #include "emmy/diagnostics/structure_motion.h"
+#include "emmy/io/temporary_file.h"
 
 namespace emmy {
 namespace {
@@ -130,8 +131,8 @@ std::vector<std::string> HistoryColumns(const Model& model) {
 }
 
 void HistoryWriter::CloseFile::operator()(std::FILE* file) const {
-  static_cast<void>(std::fclose(
-      file));  // Every row has been flushed: nothing is left to fail.
+  // No row has gone through its buffer: nothing is left to fail.
+  static_cast<void>(std::fclose(file));
 }
 
 HistoryWriter::HistoryWriter(std::string path, std::FILE* file,
@@ -188,8 +189,8 @@ absl::StatusOr<HistoryWriter> HistoryWriter::Resume(
   }
   std::filesystem::resize_file(path, position.bytes, error);
   if (error) return cannot_open(error.message());
-  // Between reading and writing a stream has to be positioned.
-  if (std::fseek(file, 0, SEEK_END) != 0) {
+  // The stream has served for reading; rows go past it.
+  if (lseek(fileno(file), 0, SEEK_END) < 0) {
     return cannot_open(std::strerror(errno));
   }
   return writer;
@@ -222,13 +223,13 @@ absl::Status HistoryWriter::Write(const Model& model, const State& state,
 
 absl::Status HistoryWriter::WriteLine(const std::string& line) {
   const std::string text = line + "\n";
-  if (std::fwrite(text.data(), 1, text.size(), file_.get()) == text.size() &&
-      std::fflush(file_.get()) == 0) {
+  // Not by the stream, which would write a row in pieces of its buffer's size.
+  const int error = WriteAll(fileno(file_.get()), text);
+  if (error == 0) {
     end_.bytes += text.size();
     end_.checksum = Crc64(text, end_.checksum);
     return absl::OkStatus();
   }
-  const int error = errno;
   file_.reset();
   std::error_code ignored;
   if (std::filesystem::is_regular_file(path_, ignored)) {

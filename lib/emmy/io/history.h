@@ -7,9 +7,10 @@
 // three angular velocities [rad/s] of BodyMotion, inertial frame; for each node
 // position and velocity; for each truss and spring strain and force [N].
 //
-// The file grows while the run goes on and is complete up to the last written
-// row at any time: a row goes out in one piece, and if that fails what part of
-// it was written is cut off again. NaN and infinity are never written.
+// The file grows by whole rows while the run goes on, each by one call to the
+// system; if that fails, what part of it was written is cut off again. Only a
+// program that is killed or a machine that stops within the call may leave part
+// of a row, without its end of line. NaN and infinity are never written.
 
 #ifndef EMMY_IO_HISTORY_H_
 #define EMMY_IO_HISTORY_H_
