@@ -162,7 +162,9 @@ INSTANTIATE_TEST_SUITE_P(
     Quaternions, BuiltStartTest,
     ::testing::Values(Length{"Unit", 1.0}, Length{"Long", 12345.678},
                       Length{"Tiny", 1e-200, RoundoffBound(8, 1.0)},
-                      Length{"Huge", 1e200, RoundoffBound(8, 1.0)}),
+                      Length{"Huge", 1e200, RoundoffBound(8, 1.0)},
+                      Length{"Subnormal", 1e-310, RoundoffBound(8, 1.0)},
+                      Length{"Least", 5e-324, RoundoffBound(8, 1.0)}),
     [](const auto& length) { return length.param.name; });
 
 // The checks of orthonormality see the start that an ordinary double gives.

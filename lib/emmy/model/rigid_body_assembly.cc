@@ -125,8 +125,10 @@ absl::StatusOr<Vector4d> MakeQuaternion(
                       "[0, 0, 0, 0]");
   }
   if (largest > 1e-100 && largest < 1e100) return q;
-  // By a power of two, which rounds nothing.
-  return (q * std::ldexp(1.0, -std::ilogb(largest))).eval();
+  // By a power of two, which rounds nothing; of subnormal numbers it is itself
+  // out of range.
+  const int exponent = std::ilogb(largest);
+  return q.unaryExpr([=](double x) { return std::ldexp(x, -exponent); }).eval();
 }
 
 // The unit quaternion in extended precision.
