@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "absl/strings/str_cat.h"
 #include "emmy/io/case_file.h"
 #include "emmy/io/case_keys.h"
 #include "emmy/model/model_builder.h"
@@ -191,6 +192,28 @@ TEST_F(SchemaTest, AgreesWithTheReaderWhenAnyObjectHasAKeyTooMany) {
                  }
                });
   EXPECT_GT(rejected_, 500);
+}
+
+TEST_F(SchemaTest, RejectsTheControlCharactersInNamesThatTheModelRejects) {
+  const json node = json::parse(R"({
+    "format": "emmy-case/1", "name": "n", "nodes": [{"name": "n", "mass": 1}],
+    "integrator": {"method": "energy_momentum", "time_step": 1, "duration": 1}
+  })");
+  for (int c = 0; c < 0x80; ++c) {
+    for (const char* after : {"", "x"}) {
+      json changed = node;
+      changed["nodes"][0]["name"] =
+          absl::StrCat("x", std::string(1, static_cast<char>(c)), after);
+      const absl::StatusOr<Case> read = ParseCase(changed.dump());
+      ASSERT_TRUE(read.ok());
+      EXPECT_EQ(SchemaChecker(Schema()).IsValid(changed),
+                BuildModel(read->model).ok())
+          << "character " << c;
+    }
+  }
+  json changed = node;
+  changed["nodes"][0]["name"] = "Kn\xC3\xB6ten \xE6\x97\xA5\xC2\x80";
+  EXPECT_TRUE(SchemaChecker(Schema()).IsValid(changed));
 }
 
 // What the schema says of ranges, the reader or the model builder says too.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <regex>
 #include <set>
 #include <string>
 
@@ -34,7 +35,7 @@ bool IsAbout(const std::string& keyword, const Json& value) {
   if (kNumberKeywords.count(keyword) > 0) return value.is_number();
   if (kArrayKeywords.count(keyword) > 0) return value.is_array();
   if (kObjectKeywords.count(keyword) > 0) return value.is_object();
-  if (keyword == "minLength") return value.is_string();
+  if (keyword == "minLength" || keyword == "pattern") return value.is_string();
   return true;
 }
 
@@ -81,6 +82,10 @@ bool SchemaChecker::CheckKeyword(const Json& schema, const std::string& keyword,
   }
   if (keyword == "minLength") {
     return value.get<std::string>().size() >= rule.get<size_t>();
+  }
+  if (keyword == "pattern") {  // Anywhere in the text.
+    return std::regex_search(value.get<std::string>(),
+                             std::regex(rule.get<std::string>()));
   }
   if (keyword == "minItems") return value.size() >= rule.get<size_t>();
   if (keyword == "maxItems") return value.size() <= rule.get<size_t>();
