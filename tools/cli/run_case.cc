@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cstdint>
 #include <limits>
 #include <optional>
 
@@ -102,12 +103,19 @@ RunResult RunCase(const RunOptions& options,
         std::chrono::steady_clock::now() - start;
     effort.wall_seconds = before.wall_seconds + wall.count();
   };
+  // The text of a large case takes a second: once, and only if it is needed.
+  uint64_t case_checksum = 0;
+  if (options.resume != nullptr) {
+    case_checksum = options.resume->case_checksum;
+  } else if (!options.checkpoint.path.empty()) {
+    case_checksum = CaseChecksum(loaded.description);
+  }
   Recorder recorder(loaded.model, monitor, history, last_row);
   Checkpointer checkpointer(
       options.checkpoint, [&]() -> absl::StatusOr<Checkpoint> {
         update_time();
         Checkpoint checkpoint{.case_name = loaded.description.name,
-                              .case_checksum = CaseChecksum(loaded.description),
+                              .case_checksum = case_checksum,
                               .build = CheckpointBuild(),
                               .state = state,
                               .kept = integrator.Keep(),
