@@ -108,8 +108,55 @@ INSTANTIATE_TEST_SUITE_P(
                 "box.json: /rigid_bodies/0/name: must be a name without "
                 "control characters, got \"b\\u0007\\u000ax\""},
         Mistake{"NumbersTooLargeTogether", "[3, 2, 1]", "[3, 2e300, 1e300]",
-                "box.json: energy and momentum at the start must be finite "
-                "numbers: a mass, length, stiffness or velocity is too large"}),
+                "box.json: /rigid_bodies/0/box: must be a body with finite "
+                "mass, volume and second moments [SI], got inf kg, inf m^3 and "
+                "inf kg m^2"},
+        Mistake{"PenaltyTooLarge", "1e10", "1.7e308",
+                "box.json: /rigid_bodies/0/penalty: must be so small that its "
+                "product with the volume is a finite number [J], got 1.7e+308 "
+                "Pa and 6 m^3"},
+        Mistake{"VelocityTooLarge", "\"penalty\"",
+                "\"velocity\": [0, 1e153, 0], \"penalty\"",
+                "box.json: /rigid_bodies/0/velocity: must be so small that "
+                "kinetic energy [J] and momentum [kg m/s] are finite numbers, "
+                "got [0, 1e+153, 0] m/s"},
+        Mistake{"AngularVelocityTooLarge", "[0.3, 0.5, 0.8]", "[0, 0, 1e153]",
+                "box.json: /rigid_bodies/0/angular_velocity: must be so small "
+                "that kinetic energy [J] and momentum [kg m/s] are finite "
+                "numbers, got [0, 0, 1e+153] rad/s"},
+        Mistake{"PositionTooLarge", "\"penalty\"",
+                "\"position\": [1e200, 0, 0], \"velocity\": [0, 1e120, 0], "
+                "\"penalty\"",
+                "box.json: /rigid_bodies/0/position: must be so small that the "
+                "angular momentum [kg m^2/s] is a finite number, got [1e+200, "
+                "0, 0] m"},
+        Mistake{"PositionTooLargeForGravity", kGravity,
+                R"("gravity": [0, 0, 1e20], "nodes": [{"name": "n", "mass": 1,
+                    "position": [0, 0, -1e290]}], "rigid_bodies": [)",
+                "box.json: /nodes/0/position: must be so small that the "
+                "gravity energy [J] is a finite number, got [0, 0, -1e+290] m"},
+        Mistake{"RotationVectorTooLarge", R"({"quaternion": [1, 0, 0, 0]})",
+                R"({"rotation_vector": [0, 1e155, 0]})",
+                "box.json: /rigid_bodies/0/orientation/rotation_vector: must "
+                "be an angle whose square is a finite number [rad], got "
+                "1e+155"},
+        Mistake{"TrussTooLong", kGravity,
+                R"("nodes": [{"name": "n", "mass": 1,
+                    "position": [0, 0, 1e155]}],
+                   "trusses": [{"name": "t", "area": 1, "density": 0,
+                    "young_modulus": 1, "ends": [{"ground": [9, 9, 9]},
+                    {"node": "n"}]}], "rigid_bodies": [)",
+                "box.json: /trusses/0/ends/1: must be a point whose distance "
+                "from the other end has a finite square [m], got [0, 0, "
+                "1e+155]"},
+        Mistake{"SpringTooStiff", kGravity,
+                R"("nodes": [{"name": "n", "mass": 1}],
+                   "springs": [{"name": "s", "stiffness": 1e300,
+                    "length": 1, "ends": [{"ground": [1e5, 0, 0]},
+                    {"node": "n"}]}], "rigid_bodies": [)",
+                "box.json: /springs/0: must be a spring whose energy at the "
+                "start is a finite number [J], got a strain of 99999 and a "
+                "stiffness of 1e+300 N/m"}),
     Name);
 
 INSTANTIATE_TEST_SUITE_P(

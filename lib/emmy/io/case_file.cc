@@ -9,6 +9,7 @@
 #include "absl/strings/str_cat.h"
 #include "absl/strings/string_view.h"
 #include "emmy/io/case_reader.h"
+#include "emmy/io/finite_start.h"
 #include "emmy/io/json_override.h"
 #include "emmy/io/json_text.h"
 #include "emmy/io/text_file.h"
@@ -68,11 +69,9 @@ absl::StatusOr<Case> ReadCaseFile(const std::string& path,
 absl::StatusOr<LoadedCase> BuildCase(Case description) {
   absl::StatusOr<BuiltModel> built = BuildModel(description.model);
   if (!built.ok()) return built.status();
-  if (!IsFinite(MeasureInvariants(built->model, built->state))) {
-    return absl::InvalidArgumentError(
-        "energy and momentum at the start must be finite numbers: a mass, "
-        "length, stiffness or velocity is too large");
-  }
+  const absl::Status finite =
+      CheckFiniteStart(description.model, built->model, built->state);
+  if (!finite.ok()) return finite;
   return LoadedCase{std::move(description), std::move(built->model),
                     std::move(built->state)};
 }

@@ -568,6 +568,19 @@ absl::StatusOr<std::array<Point, 2>> ModelAssembler::MakeEnds(
     if (!resolved.ok()) return resolved.status();
     points[i] = MakePoint(*resolved);
   }
+  const std::array<DoubleDouble3, 2> places = {MotionOf(points[0]).position,
+                                               MotionOf(points[1]).position};
+  if (!std::isfinite(Norm(places[1] - places[0]).ToDouble())) {
+    const std::array<Vector3d, 2> x = {places[0].ToDouble(),
+                                       places[1].ToDouble()};
+    const size_t far =
+        x[1].lpNorm<Eigen::Infinity>() > x[0].lpNorm<Eigen::Infinity>() ? 1 : 0;
+    return FieldError(
+        absl::StrCat(pointer, "/ends/", far),
+        "a point whose distance from the other end has a finite square [m]",
+        absl::StrCat("[", NumberText(x[far](0)), ", ", NumberText(x[far](1)),
+                     ", ", NumberText(x[far](2)), "]"));
+  }
   return points;
 }
 

@@ -17,9 +17,18 @@
 namespace emmy {
 namespace {
 
-// Products of sizes, which may be nothing although no size is.
-absl::StatusOr<RigidBodyInertia> CheckNotVanishing(
-    const std::string& pointer, const RigidBodyInertia& inertia) {
+// Products of sizes, which may be nothing or no number although no size is.
+absl::StatusOr<RigidBodyInertia> CheckInRange(const std::string& pointer,
+                                              const RigidBodyInertia& inertia) {
+  if (!std::isfinite(inertia.mass) || !std::isfinite(inertia.volume) ||
+      !inertia.second_moment.allFinite()) {
+    return FieldError(
+        pointer, "a body with finite mass, volume and second moments [SI]",
+        absl::StrCat(NumberText(inertia.mass), " kg, ",
+                     NumberText(inertia.volume), " m^3 and ",
+                     NumberText(inertia.second_moment.diagonal().maxCoeff()),
+                     " kg m^2"));
+  }
   const double moment = inertia.second_moment.diagonal().minCoeff();
   if (!(std::min({inertia.mass, inertia.volume, moment}) < kLeastMass)) {
     return inertia;
@@ -44,8 +53,8 @@ absl::StatusOr<RigidBodyInertia> MakeInertia(
     absl::Status status =
         CheckPositive(pointer + "/box/density", box->density, "kg/m^3");
     if (!status.ok()) return status;
-    return CheckNotVanishing(pointer + "/box",
-                             RigidBodyInertia::Box(box->size, box->density));
+    return CheckInRange(pointer + "/box",
+                        RigidBodyInertia::Box(box->size, box->density));
   }
   const auto& given = std::get<TensorInertia>(description.inertia);
   absl::Status status =
@@ -73,7 +82,7 @@ absl::StatusOr<RigidBodyInertia> MakeInertia(
     return absl::InvalidArgumentError(
         absl::StrCat(tensor_pointer, ": ", inertia.status().message()));
   }
-  return CheckNotVanishing(pointer + "/inertia", *inertia);
+  return CheckInRange(pointer + "/inertia", *inertia);
 }
 
 absl::StatusOr<Vector6d> MakePenalty(const std::string& pointer,
@@ -107,6 +116,11 @@ absl::StatusOr<Vector4d> MakeQuaternion(
     absl::Status status = CheckFinite(pointer + "/orientation/rotation_vector",
                                       rotation->vector, "rad");
     if (!status.ok()) return status;
+    if (!std::isfinite(rotation->vector.squaredNorm())) {
+      return FieldError(pointer + "/orientation/rotation_vector",
+                        "an angle whose square is a finite number [rad]",
+                        NumberText(rotation->vector.stableNorm()));
+    }
     return RotationVectorToQuaternion(rotation->vector);
   }
   const auto& given = std::get<Quaternion>(description.orientation);
@@ -177,6 +191,14 @@ absl::Status AssembleAncf(const std::string& pointer,
                           AssembledRigidBody& assembled) {
   absl::StatusOr<Vector6d> penalty = MakePenalty(pointer, description);
   if (!penalty.ok()) return penalty.status();
+  const double largest = penalty->maxCoeff();
+  if (!std::isfinite(inertia.volume * largest)) {
+    return FieldError(pointer + "/penalty",
+                      "so small that its product with the volume is a finite "
+                      "number [J]",
+                      absl::StrCat(NumberText(largest), " Pa and ",
+                                   NumberText(inertia.volume), " m^3"));
+  }
   absl::StatusOr<AncfRigidBody> body = AncfRigidBody::Create(inertia, *penalty);
   if (!body.ok()) return body.status();
 

@@ -1,0 +1,146 @@
+#include "emmy/io/finite_start.h"
+
+#include <cmath>
+#include <string>
+
+#include "absl/status/statusor.h"
+#include "absl/strings/str_cat.h"
+#include "emmy/diagnostics/structure_motion.h"
+#include "emmy/io/case_file.h"
+#include "emmy/model/model_builder.h"
+#include "emmy/model/validation.h"
+
+namespace emmy {
+namespace {
+
+std::string VectorText(const Vector3d& vector) {
+  return absl::StrCat("[", NumberText(vector(0)), ", ", NumberText(vector(1)),
+                      ", ", NumberText(vector(2)), "]");
+}
+
+// Whether a part of the model, alone, has a start that is not finite. What is
+// no model alone is not at fault.
+bool Overflows(const ModelDescription& part) {
+  const absl::StatusOr<BuiltModel> built = BuildModel(part);
+  return built.ok() && !IsFinite(MeasureInvariants(built->model, built->state));
+}
+
+absl::Status TooLarge(const std::string& place, const char* consequence,
+                      const std::string& value) {
+  return FieldError(place, absl::StrCat("so small that ", consequence), value);
+}
+
+constexpr char kKineticEnergy[] =
+    "kinetic energy [J] and momentum [kg m/s] are finite numbers";
+constexpr char kAngularMomentum[] =
+    "the angular momentum [kg m^2/s] is a finite number";
+constexpr char kGravityEnergy[] = "the gravity energy [J] is a finite number";
+
+// Adds one field after the other to a body at rest at the origin.
+absl::Status CheckBody(const std::string& pointer, const Vector3d& gravity,
+                       const RigidBodyDescription& body) {
+  ModelDescription part;
+  part.rigid_bodies = {body};
+  RigidBodyDescription& moved = part.rigid_bodies[0];
+  moved.position.setZero();
+  moved.velocity.setZero();
+  moved.angular_velocity.setZero();
+  moved.velocity = body.velocity;
+  if (Overflows(part)) {
+    return TooLarge(pointer + "/velocity", kKineticEnergy,
+                    VectorText(body.velocity) + " m/s");
+  }
+  moved.angular_velocity = body.angular_velocity;
+  if (Overflows(part)) {
+    return TooLarge(
+        pointer + (body.angular_velocity_in_body_axes ? "/angular_velocity_body"
+                                                      : "/angular_velocity"),
+        kKineticEnergy, VectorText(body.angular_velocity) + " rad/s");
+  }
+  moved.position = body.position;
+  if (Overflows(part)) {
+    return TooLarge(pointer + "/position", kAngularMomentum,
+                    VectorText(body.position) + " m");
+  }
+  part.gravity = gravity;
+  if (!Overflows(part)) return absl::OkStatus();
+  return TooLarge(pointer + "/position", kGravityEnergy,
+                  VectorText(body.position) + " m");
+}
+
+absl::Status CheckNode(const std::string& pointer, const Vector3d& gravity,
+                       const NodeDescription& node, const Vector3d& velocity) {
+  if (node.fixed || node.mass == 0.0) return absl::OkStatus();
+  ModelDescription part;
+  part.nodes = {{.name = node.name, .mass = node.mass, .velocity = velocity}};
+  if (Overflows(part)) {
+    return TooLarge(pointer + "/velocity", kKineticEnergy,
+                    VectorText(velocity) + " m/s");
+  }
+  part.nodes[0].position = node.position;
+  if (Overflows(part)) {
+    return TooLarge(pointer + "/position", kAngularMomentum,
+                    VectorText(node.position) + " m");
+  }
+  part.gravity = gravity;
+  if (!Overflows(part)) return absl::OkStatus();
+  return TooLarge(pointer + "/position", kGravityEnergy,
+                  VectorText(node.position) + " m");
+}
+
+absl::Status CheckLine(const std::string& pointer, const ModelLine& line,
+                       const State& state) {
+  const bool is_spring = line.element.kind() == LineElement::Kind::kSpring;
+  if (!std::isfinite(line.element.stiffness())) {
+    return FieldError(pointer, "a truss of finite stiffness E A [N]",
+                      NumberText(line.element.stiffness()) + " N");
+  }
+  if (!std::isfinite(line.mass)) {
+    return FieldError(pointer, "a truss of finite mass [kg]",
+                      NumberText(line.mass) + " kg");
+  }
+  const DoubleDouble strain(state.strain.value(line.strain_offset),
+                            state.strain.compensation(line.strain_offset));
+  if (std::isfinite(line.element.Energy(strain).ToDouble())) {
+    return absl::OkStatus();
+  }
+  return FieldError(
+      pointer,
+      absl::StrCat("a ", is_spring ? "spring" : "truss",
+                   " whose energy at the start is a finite number [J]"),
+      absl::StrCat(
+          "a strain of ", NumberText(line.element.Strain(strain.ToDouble())),
+          " and a ", is_spring ? "stiffness of " : "stiffness E A of ",
+          NumberText(line.element.stiffness()), is_spring ? " N/m" : " N"));
+}
+
+}  // namespace
+
+absl::Status CheckFiniteStart(const ModelDescription& description,
+                              const Model& model, const State& state) {
+  if (IsFinite(MeasureInvariants(model, state))) return absl::OkStatus();
+  const Vector3d& gravity = description.gravity;
+  absl::Status status;
+  for (size_t i = 0; status.ok() && i < model.bodies().size(); ++i) {
+    status = CheckBody(absl::StrCat("/rigid_bodies/", i), gravity,
+                       description.rigid_bodies[i]);
+  }
+  for (size_t i = 0; status.ok() && i < model.nodes().size(); ++i) {
+    status =
+        CheckNode(absl::StrCat("/nodes/", i), gravity, description.nodes[i],
+                  ObserveNode(model, state, i).velocity);
+  }
+  const size_t num_trusses = description.trusses.size();
+  for (size_t i = 0; status.ok() && i < model.lines().size(); ++i) {
+    status =
+        CheckLine(i < num_trusses ? absl::StrCat("/trusses/", i)
+                                  : absl::StrCat("/springs/", i - num_trusses),
+                  model.lines()[i], state);
+  }
+  if (!status.ok()) return status;
+  return absl::InvalidArgumentError(
+      "energy and momentum at the start must be finite numbers: a mass, "
+      "length, stiffness or velocity is too large");
+}
+
+}  // namespace emmy
