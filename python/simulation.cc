@@ -8,6 +8,7 @@
 #include "absl/status/statusor.h"
 #include "emmy/integrate/simulate.h"
 #include "emmy/io/history.h"
+#include "python/lock.h"
 
 namespace emmy::python {
 namespace {
@@ -34,26 +35,36 @@ class Listener {
 
   // False if the run should end, because `progress` says so or because an
   // exception waits in error().
-  bool Listen(int64_t steps_done) {
+  bool Listen(int64_t steps_done, Unlocked& unlocked) {
     const bool is_last = steps_done == num_steps_;
     const Clock::time_point now = Clock::now();
     if (now < next_ && !is_last) return true;
     next_ = now + std::chrono::milliseconds(100);
-    const pybind11::gil_scoped_acquire lock;
-    try {
-      if (PyErr_CheckSignals() != 0) throw pybind11::error_already_set();
-      if (progress_.is_none()) return true;
-      return progress_(steps_done, num_steps_).ptr() != Py_False;
-    } catch (...) {
-      // Not through the time loop: it ends by itself, between two steps.
-      error_ = std::current_exception();
-      return false;
+    const Locked lock(unlocked);
+    const int answer = CallPython([&] { return Ask(steps_done); });
+    // Not through the time loop: it ends by itself, between two steps.
+    if (answer < 0) {
+      error_ = std::make_exception_ptr(pybind11::error_already_set());
     }
+    return answer > 0;
   }
 
   const std::exception_ptr& error() const { return error_; }
 
  private:
+  // 1 to go on, 0 to end, -1 with Python's error set. Only for CallPython.
+  int Ask(int64_t steps_done) const {
+    if (PyErr_CheckSignals() != 0) return -1;
+    if (progress_.is_none()) return 1;
+    PyObject* const answer = PyObject_CallFunction(
+        progress_.ptr(), "NN", PyLong_FromLongLong(steps_done),
+        PyLong_FromLongLong(num_steps_));
+    if (answer == nullptr) return -1;
+    const int goes_on = answer != Py_False ? 1 : 0;
+    Py_DECREF(answer);
+    return goes_on;
+  }
+
   const pybind11::object& progress_;
   int64_t num_steps_;
   Clock::time_point next_ = Clock::now() + std::chrono::milliseconds(100);
@@ -133,7 +144,7 @@ void Simulation::Run(const RunOptions& options) {
   SimulationReport report;
   bool is_finite = true;
   {
-    const pybind11::gil_scoped_release unlocked;
+    Unlocked unlocked;
     report =
         Simulate(integrator_, state, options.num_steps,
                  [&](const State& reached, const StepReport& step) {
@@ -145,7 +156,7 @@ void Simulation::Run(const RunOptions& options) {
                    if (records && reached.step % options.record_every == 0) {
                      record();
                    }
-                   return listener.Listen(done);
+                   return listener.Listen(done, unlocked);
                  });
     if (is_finite) record();  // The last step reached.
   }

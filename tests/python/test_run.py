@@ -1,6 +1,9 @@
 """Progress, Ctrl-C and threads."""
+import contextlib
 import os
 import signal
+import subprocess
+import sys
 import threading
 import time
 
@@ -63,6 +66,62 @@ def test_ctrl_c_ends_a_run(box):
     steps = simulation.history["step"]
     assert steps[-1] == simulation.step > 0
     assert np.isfinite(simulation.history.data).all()
+
+
+# Ctrl-C while a thread runs: the interpreter shuts down around that thread, and
+# takes long enough for it to ask for Python's lock, which it gets no more.
+INTERRUPTED = """
+import signal, sys, threading, time
+import emmy
+
+class LongGone:
+    sleep = staticmethod(time.sleep)
+    def __del__(self):
+        self.sleep(0.5)
+
+def progress(done, total):
+    time.sleep({seconds_in_progress})
+
+sys.long_gone = LongGone()
+signal.signal(signal.SIGINT, signal.default_int_handler)
+simulation = emmy.Simulation.from_file(sys.argv[1])
+thread = threading.Thread(
+    target=simulation.run, daemon={daemon}, args=({steps},),
+    kwargs=dict(every={steps}, progress={progress}))
+thread.start()
+time.sleep(0.3)
+print("running", flush=True)
+thread.join()
+"""
+
+
+@pytest.mark.parametrize("daemon", [True, False])
+@pytest.mark.parametrize(
+    "progress, seconds", [(None, 0), ("progress", 0), ("progress", 0.2)]
+)
+def test_ctrl_c_does_not_abort_a_process_with_a_running_thread(
+    daemon, progress, seconds, examples
+):
+    script = INTERRUPTED.format(
+        daemon=daemon, progress=progress, seconds_in_progress=seconds,
+        steps=FOREVER)
+    with subprocess.Popen(
+        [sys.executable, "-c", script, str(examples / "paper_box.json")],
+        stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
+    ) as process:
+        errors = None
+        try:
+            assert process.stdout.readline() == "running\n"
+            deadline = time.monotonic() + 60
+            while errors is None and time.monotonic() < deadline:
+                # Before join() it does not end the wait for such a thread.
+                process.send_signal(signal.SIGINT)
+                with contextlib.suppress(subprocess.TimeoutExpired):
+                    errors = process.communicate(timeout=2)[1]
+        finally:
+            process.kill()
+    assert process.returncode == -signal.SIGINT, errors
+    assert "KeyboardInterrupt" in errors
 
 
 def test_other_threads_go_on_during_a_run(box):
