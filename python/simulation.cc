@@ -60,7 +60,7 @@ class Listener {
         progress_.ptr(), "NN", PyLong_FromLongLong(steps_done),
         PyLong_FromLongLong(num_steps_));
     if (answer == nullptr) return -1;
-    const int goes_on = answer != Py_False ? 1 : 0;
+    const int goes_on = answer == Py_None ? 1 : PyObject_IsTrue(answer);
     Py_DECREF(answer);
     return goes_on;
   }

@@ -45,7 +45,7 @@ class Simulation {
     int64_t num_steps = 0;
     int64_t record_every = 0;  // 0: no history.
     // progress(steps done, steps in all), at most ten times a second and at
-    // the end; ends the run by returning False.
+    // the end; ends the run by returning what is neither None nor true.
     pybind11::object progress = pybind11::none();
   };
 

@@ -158,14 +158,15 @@ class Simulation:
         steps: Optional[int] = None,
         *,
         every: Optional[int] = None,
-        progress: Optional[Callable[[int, int], Optional[bool]]] = None,
+        progress: Optional[Callable[[int, int], object]] = None,
     ) -> History:
         """Goes on from the present state and returns what it recorded: the
         present state, every step whose number `every` divides, the last one.
 
         Without `steps` and `every` it takes those of the case. Calls
         progress(steps done, steps in all) at most ten times a second and after
-        the last step; returning False ends the run. Ctrl-C ends it with
+        the last step: None goes on, and so does anything else that is true;
+        False, 0 or numpy.False_ ends the run. Ctrl-C ends it with
         KeyboardInterrupt. However it ends, `history` has the rows so far.
         """
     def advance(self, steps: int = 1) -> None:

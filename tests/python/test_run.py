@@ -34,13 +34,30 @@ def test_progress_comes_at_most_ten_times_a_second(box):
     assert min(np.diff(times)) > 0.05
 
 
-def test_progress_ends_a_run_by_returning_false(box):
+@pytest.mark.parametrize("false", [False, np.False_, 0, ""])
+def test_progress_ends_a_run_by_returning_what_is_false(box, false):
     simulation = emmy.Simulation(box)
+    answers = iter([false])  # Raises if it is asked again.
     history = simulation.run(
-        FOREVER, every=FOREVER, progress=lambda done, total: False
-    )
+        FOREVER, every=FOREVER, progress=lambda done, total: next(answers))
     assert simulation.step > 0
     assert history["step"].tolist() == [0, simulation.step]
+
+
+@pytest.mark.parametrize("other", [None, True, np.True_, 1, "on"])
+def test_progress_goes_on_with_none_and_what_is_true(box, other):
+    answers = iter([other, False])
+    simulation = emmy.Simulation(box)
+    simulation.run(
+        FOREVER, every=FOREVER, progress=lambda done, total: next(answers))
+    assert not list(answers)
+
+
+def test_an_answer_of_progress_without_a_truth_value_raises(box):
+    answers = iter([np.zeros(2)])
+    with pytest.raises(ValueError, match="ambiguous"):
+        emmy.Simulation(box).run(
+            FOREVER, every=FOREVER, progress=lambda done, total: next(answers))
 
 
 def test_an_exception_of_progress_arrives(box):
