@@ -87,6 +87,10 @@ std::shared_ptr<History> Run(Simulation& simulation,
                              std::optional<int64_t> steps,
                              std::optional<int64_t> every,
                              const py::object& progress) {
+  if (!progress.is_none() && PyCallable_Check(progress.ptr()) == 0) {
+    throw py::type_error(absl::StrCat("progress: must be callable, got ",
+                                      Py_TYPE(progress.ptr())->tp_name));
+  }
   const Case& description = simulation.description();
   const int64_t record_every = every.value_or(description.output_every);
   if (record_every < 1) {

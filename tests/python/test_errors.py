@@ -92,6 +92,14 @@ def test_values_that_json_has_not(box):
         emmy.Simulation(3)
 
 
+def test_progress_that_cannot_be_called(box):
+    simulation = emmy.Simulation(box)
+    with pytest.raises(TypeError, match="progress: must be callable, got int"):
+        simulation.run(10, progress=3)
+    assert simulation.step == 0
+    assert simulation.history is None
+
+
 def test_counts_out_of_range(box):
     simulation = emmy.Simulation(box)
     with pytest.raises(emmy.InputError, match="steps: .*-1"):
