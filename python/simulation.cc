@@ -138,13 +138,14 @@ void Simulation::Run(const RunOptions& options) {
     last_row = state.step;
     history->Append(HistoryRow(model(), state, monitor_.latest(), iterations_));
   };
-  record();
 
   Listener listener(options.progress, options.num_steps);
   SimulationReport report;
   bool is_finite = true;
-  {
+  std::exception_ptr error;
+  try {
     Unlocked unlocked;
+    record();
     report =
         Simulate(integrator_, state, options.num_steps,
                  [&](const State& reached, const StepReport& step) {
@@ -159,9 +160,12 @@ void Simulation::Run(const RunOptions& options) {
                    return listener.Listen(done, unlocked);
                  });
     if (is_finite) record();  // The last step reached.
+  } catch (...) {
+    error = std::current_exception();  // Of memory that ran out.
   }
   if (records) history_ = history;
   if (listener.error() != nullptr) std::rethrow_exception(listener.error());
+  if (error != nullptr) std::rethrow_exception(error);
   if (!report.ok()) throw StepError(prefix_ + report.message);
   if (!is_finite) throw StepError(prefix_ + NotFiniteMessage(state));
 }

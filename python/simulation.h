@@ -54,7 +54,8 @@ class Simulation {
   // `progress` raises; the state is that after the last good step, and
   // history() ends with it. Only a step whose energy or momentum is not finite
   // is seen after it is made: the state is then that step's, and history() ends
-  // before it.
+  // before it. If memory runs out, history() has the rows for which there was
+  // some.
   void Run(const RunOptions& options);
 
   // The rows of the last run that recorded any; else null.

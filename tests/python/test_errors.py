@@ -2,6 +2,7 @@
 import math
 import os
 import subprocess
+import sys
 
 import pytest
 
@@ -90,6 +91,34 @@ def test_values_that_json_has_not(box):
         emmy.Simulation(box)
     with pytest.raises(TypeError, match="from_file"):
         emmy.Simulation(3)
+
+
+OUT_OF_MEMORY = """
+import resource, sys
+import emmy
+simulation = emmy.Simulation.from_file(sys.argv[1])
+first = simulation.run(1)
+with open("/proc/self/statm") as statm:
+    used = int(statm.read().split()[0]) * resource.getpagesize()
+resource.setrlimit(resource.RLIMIT_AS, (used + 2**26, used + 2**26))
+try:
+    simulation.run(10**12, every=1)
+except MemoryError:
+    steps = simulation.history["step"]
+    assert simulation.history is not first
+    assert steps[0] == 1 and len(steps) > 1000, steps
+    # Its row is the one for which there was no memory.
+    assert steps[-1] == simulation.step - 1, (steps, simulation.step)
+    print("out of memory")
+"""
+
+
+@pytest.mark.skipif(not os.path.exists("/proc/self/statm"), reason="no /proc")
+def test_history_has_the_rows_for_which_there_was_memory(examples):
+    result = subprocess.run(
+        [sys.executable, "-c", OUT_OF_MEMORY, examples / "paper_box.json"],
+        capture_output=True, text=True, check=False, timeout=100)
+    assert result.stdout == "out of memory\n", result.stderr
 
 
 def test_progress_that_cannot_be_called(box):
