@@ -7,13 +7,16 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <exception>
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_join.h"
+#include "absl/strings/string_view.h"
 #include "emmy/base/build_info.h"
 #include "emmy/diagnostics/body_motion.h"
 #include "emmy/diagnostics/invariant_monitor.h"
@@ -71,6 +74,15 @@ std::vector<std::string> Overrides(const py::object& overrides) {
       .cast<std::vector<std::string>>();
 }
 
+// The bytes of a file's name, which need not be UTF-8.
+std::string FileName(const py::object& path) {
+  PyObject* bytes = nullptr;
+  if (PyUnicode_FSConverter(path.ptr(), &bytes) == 0) {
+    throw py::error_already_set();
+  }
+  return py::reinterpret_steal<py::bytes>(bytes);
+}
+
 int64_t NotNegative(int64_t value, const char* name) {
   if (value >= 0) return value;
   throw InputError(
@@ -119,6 +131,25 @@ py::array ColumnView(const py::object& self, const std::string& name) {
   if (!found.is_vector) return View(first, {rows}, {row}, self);
   return View(first, {rows, static_cast<py::ssize_t>(found.count)}, {row, item},
               self);
+}
+
+// Makes `Error` a class of Python's. Its message may hold the name of a file:
+// bytes that are not UTF-8 become what os.fsdecode makes of them.
+template <typename Error>
+void BindError(py::module_& module, const char* name, PyObject* base) {
+  static const py::handle error_class =
+      py::exception<Error>(module, name, base).release();
+  py::register_exception_translator([](std::exception_ptr thrown) {
+    try {
+      if (thrown != nullptr) std::rethrow_exception(std::move(thrown));
+    } catch (const Error& error) {
+      const absl::string_view message = error.what();
+      const auto text = py::reinterpret_steal<py::object>(PyUnicode_DecodeUTF8(
+          message.data(), static_cast<py::ssize_t>(message.size()),
+          "surrogateescape"));
+      if (text) PyErr_SetObject(error_class.ptr(), text.ptr());
+    }
+  });
 }
 
 void BindHistory(py::module_& module) {
@@ -273,10 +304,7 @@ void BindSimulation(py::module_& module) {
       .def_static(
           "from_file",
           [](const py::object& path, const py::object& overrides, int threads) {
-            return Simulation::FromFile(py::module_::import("os")
-                                            .attr("fspath")(path)
-                                            .cast<std::string>(),
-                                        Overrides(overrides),
+            return Simulation::FromFile(FileName(path), Overrides(overrides),
                                         NumThreads(threads));
           },
           py::arg("path"), py::kw_only(), py::arg("overrides") = py::none(),
@@ -304,8 +332,8 @@ PYBIND11_MODULE(_emmy, module) {
   // Their full names are what users see in a traceback.
   py::module_ scope = module;
   scope.attr("__name__") = "emmy";
-  py::register_exception<InputError>(scope, "InputError", PyExc_ValueError);
-  py::register_exception<StepError>(scope, "StepError", PyExc_RuntimeError);
+  emmy::python::BindError<InputError>(scope, "InputError", PyExc_ValueError);
+  emmy::python::BindError<StepError>(scope, "StepError", PyExc_RuntimeError);
   emmy::python::BindHistory(scope);
   emmy::python::BindResults(scope);
   emmy::python::BindSimulation(scope);

@@ -11,10 +11,13 @@ def _plain(value, pointer):
     """`value` as JSON has it: NumPy's arrays and numbers become Python's."""
     if hasattr(value, "tolist"):
         value = value.tolist()
+    if isinstance(value, str):
+        return _unicode(value, pointer)
     if isinstance(value, Mapping):
         for key in value:
             if not isinstance(key, str):
                 raise InputError(f"{pointer}: keys must be text, got {key!r}")
+            _unicode(key, pointer)
         return {
             key: _plain(item, pointer + "/" + _part(key))
             for key, item in value.items()
@@ -23,11 +26,23 @@ def _plain(value, pointer):
         return [_plain(item, f"{pointer}/{i}") for i, item in enumerate(value)]
     if isinstance(value, float) and not math.isfinite(value):
         raise InputError(f"{pointer}: must be a finite number, got {value}")
-    if value is None or isinstance(value, (bool, int, float, str)):
+    if value is None or isinstance(value, (bool, int, float)):
         return value
     raise InputError(
         f"{pointer}: must be a value that JSON has, got {type(value).__name__}"
     )
+
+
+def _unicode(text, place):
+    """`text`, if UTF-8 has it: Python's texts may hold half a character."""
+    try:
+        text.encode()
+    except UnicodeEncodeError as error:
+        raise InputError(
+            f"{place}: must be Unicode text, got {text[error.start]!a} "
+            f"at position {error.start}"
+        ) from None
+    return text
 
 
 def _part(key):
@@ -37,7 +52,7 @@ def _part(key):
 def text(case):
     """The JSON text of a case: a mapping, or text as it is."""
     if isinstance(case, str):
-        return case
+        return _unicode(case, "case")
     if not isinstance(case, Mapping):
         raise TypeError(
             "a case is a dict or JSON text; for a file: Simulation.from_file"
@@ -50,6 +65,6 @@ def settings(overrides):
     if overrides is None:
         return []
     return [
-        f"{pointer}={json.dumps(_plain(value, pointer))}"
+        _unicode(f"{pointer}={json.dumps(_plain(value, pointer))}", "overrides")
         for pointer, value in overrides.items()
     ]

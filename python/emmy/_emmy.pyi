@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 _Array = NDArray[np.float64]
+_Path = Union[str, bytes, "os.PathLike[str]", "os.PathLike[bytes]"]
 
 class InputError(ValueError):
     """A case that cannot be used; the message names the place, what was
@@ -148,7 +149,7 @@ class Simulation:
         large nets and long chains; results do not depend on it."""
     @staticmethod
     def from_file(
-        path: Union[str, "os.PathLike[str]"],
+        path: _Path,
         *,
         overrides: Optional[Mapping[str, Any]] = None,
         threads: int = 1,

@@ -1,6 +1,8 @@
 """What goes wrong arrives as an exception, in the program's words."""
+import json
 import math
 import os
+import pathlib
 import subprocess
 import sys
 
@@ -73,6 +75,51 @@ def test_files_that_cannot_be_read(tmp_path):
     for path in (tmp_path, tmp_path / "missing.json"):
         with pytest.raises(emmy.InputError, match=str(path)):
             emmy.Simulation.from_file(path)
+
+
+def test_names_of_files_may_be_any_bytes(box, tmp_path):
+    path = os.fsencode(tmp_path) + b"/caf\xe9.json"
+    try:
+        with open(path, "w") as file:
+            json.dump(box, file)
+    except OSError:
+        pytest.skip("this file system has no such names")
+    for name in (path, os.fsdecode(path), pathlib.Path(os.fsdecode(path))):
+        assert emmy.Simulation.from_file(name).name == "box"
+    with pytest.raises(emmy.InputError) as caught:
+        emmy.Simulation.from_file(path, overrides={"/integrator/order": 3})
+    assert str(caught.value).startswith(os.fsdecode(path) + ": /integrator/order")
+
+
+def test_names_that_no_file_can_have():
+    with pytest.raises(ValueError, match="null byte"):
+        emmy.Simulation.from_file("case\0.json")
+    with pytest.raises(TypeError, match="int"):
+        emmy.Simulation.from_file(3)
+
+
+@pytest.mark.parametrize(
+    "changes, overrides, place",
+    [
+        ({"purpose": "caf\udce9"}, {}, "/purpose"),
+        ({"nodes": [{"caf\udce9": 1}]}, {}, "/nodes/0"),
+        ({}, {"/purpose": "caf\udce9"}, "/purpose"),
+        ({}, {"/caf\udce9": 1}, "overrides"),
+    ],
+)
+def test_text_that_is_not_unicode(box, changes, overrides, place):
+    with pytest.raises(emmy.InputError) as caught:
+        emmy.Simulation({**box, **changes}, overrides=overrides)
+    assert str(caught.value).startswith(f"{place}: must be Unicode text, got ")
+    assert str(caught.value).isascii()
+
+
+def test_json_text_that_is_not_unicode():
+    with pytest.raises(
+        emmy.InputError,
+        match=r"^case: must be Unicode text, got '\\udce9' at position 4$",
+    ):
+        emmy.Simulation('"caf\udce9"')
 
 
 @pytest.mark.parametrize("number", [math.nan, math.inf])
