@@ -99,6 +99,7 @@ std::unique_ptr<Simulation> Simulation::Create(
 std::unique_ptr<Simulation> Simulation::FromFile(
     const std::string& path, const std::vector<std::string>& overrides,
     int threads) {
+  const Unlocked unlocked;
   absl::StatusOr<LoadedCase> loaded = LoadCaseFile(path, overrides);
   if (!loaded.ok()) ThrowInputError(loaded.status());
   return Create(path + ": ", std::make_unique<LoadedCase>(*std::move(loaded)),
@@ -108,6 +109,7 @@ std::unique_ptr<Simulation> Simulation::FromFile(
 std::unique_ptr<Simulation> Simulation::FromText(
     const std::string& text, const std::vector<std::string>& overrides,
     int threads) {
+  const Unlocked unlocked;
   absl::StatusOr<Case> description = ParseCase(text, overrides);
   if (!description.ok()) ThrowInputError(description.status());
   absl::StatusOr<LoadedCase> loaded = BuildCase(*std::move(description));

@@ -31,8 +31,8 @@ struct StepError : std::runtime_error {
 
 class Simulation {
  public:
-  // Both throw InputError with the message of the program `emmy`. `threads` is
-  // at least 1.
+  // Both throw InputError with the message of the program `emmy`, and work
+  // without Python's lock. `threads` is at least 1.
   static std::unique_ptr<Simulation> FromFile(
       const std::string& path, const std::vector<std::string>& overrides,
       int threads);

@@ -1,5 +1,6 @@
 """Progress, Ctrl-C and threads."""
 import contextlib
+import json
 import os
 import signal
 import subprocess
@@ -160,6 +161,36 @@ def test_other_threads_go_on_during_a_run(box):
     done.set()
     thread.join()
     assert counter >= 20
+
+
+def test_other_threads_go_on_while_a_case_is_read(box, tmp_path):
+    box["rigid_bodies"] = [
+        {**box["rigid_bodies"][0], "name": f"box{i}"} for i in range(10000)
+    ]
+    text = json.dumps(box)
+    path = tmp_path / "boxes.json"
+    path.write_text(text)
+    done = threading.Event()
+    ticks = []
+
+    def tick():
+        while not done.wait(0.001):
+            ticks.append(time.monotonic())
+
+    thread = threading.Thread(target=tick)
+    thread.start()
+    spans = []
+    for make, case in (
+        (emmy.Simulation.from_file, path), (emmy.Simulation, text)
+    ):
+        start = time.monotonic()
+        make(case)
+        spans.append((start, time.monotonic()))
+    done.set()
+    thread.join()
+    for start, end in spans:
+        inside = [start, *(t for t in ticks if start < t < end), end]
+        assert max(np.diff(inside)) < (end - start) / 2, (spans, len(inside))
 
 
 def test_two_simulations_run_side_by_side(box):
