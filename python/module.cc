@@ -153,9 +153,8 @@ void BindError(py::module_& module, const char* name, PyObject* base) {
 }
 
 void BindHistory(py::module_& module) {
-  py::class_<History, std::shared_ptr<History>>(module, "History")
-      .def("__len__", &History::num_rows)
-      .def_property_readonly("columns", &History::columns)
+  py::class_<History, std::shared_ptr<History>> bound(module, "History");
+  bound.def_property_readonly("columns", &History::columns)
       .def_property_readonly(
           "data",
           [](const py::object& self) {
@@ -167,7 +166,26 @@ void BindHistory(py::module_& module) {
                         {static_cast<py::ssize_t>(history.num_rows()), columns},
                         {columns * item, item}, self);
           })
-      .def("__getitem__", &ColumnView, py::arg("name"));
+      .def("__getitem__", &ColumnView, py::arg("name"))
+      .def("__contains__",
+           [](const History& self, const std::string& name) {
+             return self.Find(name).count > 0;
+           })
+      .def("__contains__",
+           [](const History&, const py::object&) { return false; })
+      .def("__iter__",
+           [](const History& self) {
+             return py::iter(py::cast(self.columns()));
+           })
+      .def("__len__",
+           [](const History& self) { return self.columns().size(); });
+  // What every mapping has by these.
+  const py::object mapping =
+      py::module_::import("collections.abc").attr("Mapping");
+  for (const char* name : {"keys", "values", "items", "get"}) {
+    bound.attr(name) = mapping.attr(name);
+  }
+  mapping.attr("register")(bound);
 }
 
 void BindResults(py::module_& module) {

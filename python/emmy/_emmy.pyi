@@ -2,7 +2,7 @@
 nothing, cannot be written to, and keep their owner alive."""
 
 import os
-from typing import Any, Callable, Mapping, Optional, TypedDict, Union
+from typing import Any, Callable, Iterator, Mapping, Optional, TypedDict, Union
 
 import numpy as np
 from numpy.typing import NDArray
@@ -27,8 +27,10 @@ class _BuildInfo(TypedDict):
 def build_info() -> _BuildInfo:
     """How the library was built: rounding errors belong to a build."""
 
-class History:
-    """The rows of one run: the columns of history.csv, docs/case_format.md."""
+class History(Mapping[str, _Array]):
+    """The rows of one run, as a mapping from the columns of history.csv
+    (docs/case_format.md) to their values: dict(history), "time" in history.
+    len(history.data) is the number of rows."""
 
     @property
     def columns(self) -> list[str]: ...
@@ -37,7 +39,9 @@ class History:
         """View, a row per recorded step."""
     def __getitem__(self, name: str) -> _Array:
         """View of one column ("time", "box.omega_x"), or of the components of
-        a vector or quaternion side by side ("box.omega": rows by 3)."""
+        a vector or quaternion side by side ("box.omega": rows by 3), a name
+        that is in the history but not among its keys."""
+    def __iter__(self) -> Iterator[str]: ...
     def __len__(self) -> int: ...
 
 class Invariants:

@@ -118,7 +118,7 @@ def test_a_run_goes_on_where_the_last_one_ended(box):
 def test_rows_are_start_every_nth_and_last(box):
     history = emmy.Simulation(box).run(25, every=10)
     assert history["step"].tolist() == [0, 10, 20, 25]
-    assert len(history) == 4
+    assert len(history.data) == 4
     assert emmy.Simulation(box).run(0)["step"].tolist() == [0]
 
 

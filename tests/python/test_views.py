@@ -1,6 +1,7 @@
 """Arrays show the library's memory: no copy, no dangling, no writing."""
 import gc
 import weakref
+from collections.abc import Mapping
 
 import numpy as np
 import pytest
@@ -58,6 +59,30 @@ def test_views_of_a_history_share_one_table(box):
     assert np.array_equal(omega[:, 1], history.data[:, column])
     assert history["box.quaternion"].shape == (6, 4)
     assert history["box.quaternion_w"].shape == (6,)
+
+
+def test_a_history_is_a_mapping_from_columns_to_views(box):
+    history = emmy.Simulation(box).run(5)
+    assert isinstance(history, Mapping)
+    assert list(history) == list(history.keys()) == history.columns
+    assert len(history) == len(history.columns)
+    columns = dict(history)
+    assert list(columns) == history.columns
+    for values in columns, dict(history.items()):
+        assert all(
+            np.shares_memory(values[name], history.data) for name in history)
+    assert len(list(history.values())) == len(history)
+    assert history.get("time") is not None
+    assert history.get("nothing", 3) == 3
+
+
+def test_what_is_in_a_history_can_be_looked_up(box):
+    history = emmy.Simulation(box).run(1)
+    for name in ("time", "box.omega_x", "box.omega", "box.quaternion"):
+        assert name in history
+        assert history[name].shape[0] == 2
+    for name in ("tim", "box", "box.omega_w", "", "\udce9", 3, None):
+        assert name not in history
 
 
 def test_a_view_keeps_its_owner_alive(box):
