@@ -1,4 +1,4 @@
-"""pip install . --no-build-isolation: CMake builds the module, setuptools packs it.
+"""pip install .: CMake builds the module, setuptools packs it.
 
 EMMY_CMAKE_BUILD names a folder that CMake has configured already, to use what
 is compiled there; CMAKE_ARGS are further arguments for the configuration.

@@ -1,7 +1,8 @@
 # What the Python module needs: decides whether EMMY_WITH_PYTHON is on.
 #
 # EMMY_BUILD_PYTHON=AUTO builds the module if all is there, and else says what
-# is missing and goes on; ON stops instead.
+# is missing and goes on; ON stops instead. NumPy is needed when the module runs, not
+# to build it: pip hides it while it builds.
 set(EMMY_WITH_PYTHON OFF)
 if(NOT EMMY_BUILD_PYTHON)
   return()
@@ -18,10 +19,13 @@ set(_emmy_missing "")
 if(NOT Python_FOUND)
   list(APPEND _emmy_missing "Python with headers (python3-dev)")
 else()
-  execute_process(COMMAND "${Python_EXECUTABLE}" -c "import numpy"
-    RESULT_VARIABLE _emmy_status OUTPUT_QUIET ERROR_QUIET)
-  if(NOT _emmy_status EQUAL 0)
-    list(APPEND _emmy_missing "NumPy for ${Python_EXECUTABLE} (python3-numpy)")
+  if(EMMY_BUILD_PYTHON STREQUAL "AUTO")
+    execute_process(COMMAND "${Python_EXECUTABLE}" -c "import numpy"
+      RESULT_VARIABLE _emmy_status OUTPUT_QUIET ERROR_QUIET)
+    if(NOT _emmy_status EQUAL 0)
+      list(APPEND _emmy_missing
+        "NumPy for ${Python_EXECUTABLE} (python3-numpy)")
+    endif()
   endif()
   if(CMAKE_CXX_FLAGS MATCHES "-fsanitize")
     list(APPEND _emmy_missing "a Python that is built with ${CMAKE_CXX_FLAGS}")

@@ -1,9 +1,12 @@
 """pip install: builds, installs, and imports from where it was put."""
+import importlib.metadata
 import importlib.util
 import os
+import pathlib
 import shutil
 import subprocess
 import sys
+import zipfile
 
 import pytest
 
@@ -13,8 +16,8 @@ for package in ("pip", "setuptools", "wheel", "venv"):
     if importlib.util.find_spec(package) is None:
         pytest.skip(f"{package} is not installed", allow_module_level=True)
 
-PIP_OPTIONS = ["--no-build-isolation", "--no-deps", "--no-index",
-               "--disable-pip-version-check", "--root-user-action=ignore"]
+PIP_OPTIONS = ["--no-deps", "--no-index", "--disable-pip-version-check",
+               "--root-user-action=ignore"]
 CHECK = """
 import emmy, sys
 assert emmy.__file__.startswith(sys.argv[1]), emmy.__file__
@@ -45,6 +48,34 @@ def environment(**more):
     return {**kept, **more}
 
 
+@pytest.fixture
+def wheels(tmp_path):
+    """What pip fetches to build with, from what is installed here."""
+    folder = tmp_path / "wheels"
+    folder.mkdir()
+    for name in ("setuptools", "wheel"):
+        found = importlib.metadata.distribution(name)
+        root = pathlib.Path(found.locate_file(""))
+        info = f"{name}-{found.version}.dist-info"
+        with zipfile.ZipFile(
+            folder / f"{name}-{found.version}-py3-none-any.whl", "w"
+        ) as wheel:
+            for top in found.read_text("top_level.txt").split():
+                for path in (root / top).rglob("*.*"):
+                    if path.is_file() and path.suffix != ".pyc":
+                        wheel.write(path, path.relative_to(root))
+            for file, text in {
+                "METADATA": found.read_text("METADATA")
+                or found.read_text("PKG-INFO"),
+                "entry_points.txt": found.read_text("entry_points.txt"),
+                "WHEEL": "Wheel-Version: 1.0\nRoot-Is-Purelib: true\n"
+                "Tag: py3-none-any\n",
+                "RECORD": "".join(f"{file},,\n" for file in wheel.namelist()),
+            }.items():
+                wheel.writestr(f"{info}/{file}", text)
+    return folder
+
+
 def check(python, place, examples, **more):
     subprocess.run(
         [python, "-c", CHECK, str(place), str(examples / "paper_box.json")],
@@ -54,8 +85,8 @@ def check(python, place, examples, **more):
 def test_pip_packs_what_is_built(sources, examples, tmp_path):
     target = tmp_path / "target"
     subprocess.run(
-        [sys.executable, "-m", "pip", "install", *PIP_OPTIONS,
-         "--target", target, "."],
+        [sys.executable, "-m", "pip", "install", "--no-build-isolation",
+         *PIP_OPTIONS, "--target", target, "."],
         check=True, cwd=sources,
         env=environment(EMMY_CMAKE_BUILD=os.environ["EMMY_BINARY_DIR"]))
     check(sys.executable, target, examples, PYTHONPATH=str(target))
@@ -63,14 +94,32 @@ def test_pip_packs_what_is_built(sources, examples, tmp_path):
     assert (target / "emmy" / "_emmy.pyi").exists()
 
 
-def test_pip_builds_from_scratch(sources, examples, tmp_path):
+def test_the_build_needs_no_numpy(sources, tmp_path):
+    """pip builds where setuptools is and nothing else."""
+    place = tmp_path / "environment"
+    subprocess.run([sys.executable, "-m", "venv", "--without-pip", place],
+                   check=True, env=environment())
+    python = place / "bin" / "python"
+    assert subprocess.run([python, "-c", "import numpy"], check=False,
+                          capture_output=True, env=environment()).returncode
+    result = subprocess.run(
+        ["cmake", "-S", sources, "-B", tmp_path / "build", "-G", "Ninja",
+         "-DEMMY_BUILD_PYTHON=ON", "-DEMMY_BUILD_TESTS=OFF",
+         "-DEMMY_BUILD_BENCHMARKS=OFF", "-DEMMY_BUILD_VERIFICATION=OFF",
+         f"-DPython_EXECUTABLE={python}"],
+        capture_output=True, text=True, check=False, env=environment())
+    assert result.returncode == 0, result.stderr
+
+
+def test_pip_builds_from_scratch(sources, wheels, examples, tmp_path):
     """Into a virtual environment, and out of it again; takes minutes."""
     place = tmp_path / "environment"
     subprocess.run(
         [sys.executable, "-m", "venv", "--system-site-packages", place],
         check=True, env=environment())
     python = place / "bin" / "python"
-    subprocess.run([python, "-m", "pip", "install", *PIP_OPTIONS, "."],
+    subprocess.run([python, "-m", "pip", "install", *PIP_OPTIONS,
+                    "--find-links", wheels, "."],
                    check=True, cwd=sources, env=environment())
     check(python, place, examples)
     subprocess.run([python, "-m", "pip", "uninstall", "-y", "emmy"],
