@@ -31,16 +31,21 @@ assert importlib.metadata.version("emmy") == emmy.__version__
 
 @pytest.fixture
 def sources(tmp_path):
-    """A copy, because pip leaves its traces where it builds."""
-    copy = tmp_path / "sources"
+    """What `setup.py sdist` packs; made of a copy, for it leaves its traces."""
+    copy = tmp_path / "copy"
     copy.mkdir()
-    for name in ("CMakeLists.txt", "README.md", "pyproject.toml", "setup.py"):
+    for name in ("CMakeLists.txt", "LICENSE", "MANIFEST.in", "README.md",
+                 "pyproject.toml", "setup.py"):
         shutil.copy2(ROOT / name, copy)
-    for name in ("cmake", "lib", "python"):
+    for name in ("cmake", "lib", "python", "tools"):
         shutil.copytree(ROOT / name, copy / name)
-    (copy / "tools" / "lib").mkdir(parents=True)
-    shutil.copy2(ROOT / "tools/lib/packages.txt", copy / "tools/lib")
-    return copy
+    (copy / "python" / "emmy" / "_emmy.cpython.so").touch()  # Of pip install -e.
+    subprocess.run([sys.executable, "setup.py", "--quiet", "sdist"],
+                   check=True, cwd=copy, env=environment())
+    (archive,) = (copy / "dist").iterdir()
+    shutil.unpack_archive(archive, tmp_path)
+    (unpacked,) = (path for path in tmp_path.glob("emmy-*") if path.is_dir())
+    return unpacked
 
 
 def environment(**more):
@@ -92,6 +97,29 @@ def test_pip_packs_what_is_built(sources, examples, tmp_path):
     check(sys.executable, target, examples, PYTHONPATH=str(target))
     assert (target / "emmy" / "py.typed").exists()
     assert (target / "emmy" / "_emmy.pyi").exists()
+
+
+def test_the_archive_of_sources_has_all_of_them_and_no_binary(sources):
+    packed = {
+        path.relative_to(sources).as_posix()
+        for path in sources.rglob("*") if path.is_file()
+    }
+    for folder in ("cmake", "lib", "python"):
+        for path in (ROOT / folder).rglob("*"):
+            if path.is_file() and path.suffix not in (".pyc", ".so"):
+                name = path.relative_to(ROOT).as_posix()
+                assert ".egg-info/" in name or name in packed
+    assert not [name for name in packed if name.endswith(".so")]
+
+
+@pytest.mark.skipif(
+    not (ROOT / ".git").exists() or shutil.which("git") is None,
+    reason="not a checkout")
+def test_git_ignores_what_an_editable_installation_leaves():
+    for name in ("python/emmy/_emmy.cpython-311-x86_64-linux-gnu.so",
+                 "python/emmy.egg-info/PKG-INFO", "build/temp/build.ninja"):
+        subprocess.run(["git", "-c", f"safe.directory={ROOT}", "check-ignore",
+                        "--quiet", name], check=True, cwd=ROOT)
 
 
 def test_the_build_needs_no_numpy(sources, tmp_path):
