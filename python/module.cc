@@ -1,5 +1,5 @@
 // The Python module emmy._emmy: what Python sees of the library. Words for
-// people are in python/emmy/_emmy.pyi.
+// people, help() too, are in python/emmy/_emmy.pyi.
 
 #include <pybind11/eigen.h>
 #include <pybind11/pybind11.h>
@@ -16,6 +16,7 @@
 
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_join.h"
+#include "absl/strings/str_split.h"
 #include "absl/strings/string_view.h"
 #include "emmy/base/build_info.h"
 #include "emmy/diagnostics/body_motion.h"
@@ -23,6 +24,7 @@
 #include "emmy/diagnostics/structure_motion.h"
 #include "emmy/io/case.h"
 #include "emmy/io/case_writer.h"
+#include "python/docstrings.h"
 #include "python/history.h"
 #include "python/simulation.h"
 #include "python/views.h"
@@ -49,6 +51,20 @@ InvariantValues Rounded(const Invariants& exact) {
           .total_energy = exact.TotalEnergy().ToDouble(),
           .momentum = exact.momentum.ToDouble(),
           .angular_momentum = exact.angular_momentum.ToDouble()};
+}
+
+// Of a function or method. Those of classes and properties: SetDocstrings.
+const char* Doc(const std::string& name) { return Docstrings().at(name); }
+
+void SetDocstrings(const py::module_& module) {
+  for (const auto& [name, text] : Docstrings()) {
+    py::object item = module;
+    const std::vector<std::string> path = absl::StrSplit(name, '.');
+    for (const std::string& part : path) item = item.attr(part.c_str());
+    if (PyType_Check(item.ptr()) || Py_IS_TYPE(item.ptr(), &PyProperty_Type)) {
+      item.attr("__doc__") = text;
+    }
+  }
 }
 
 template <typename Named>
@@ -166,7 +182,8 @@ void BindHistory(py::module_& module) {
                         {static_cast<py::ssize_t>(history.num_rows()), columns},
                         {columns * item, item}, self);
           })
-      .def("__getitem__", &ColumnView, py::arg("name"))
+      .def("__getitem__", &ColumnView, py::arg("name"),
+           Doc("History.__getitem__"))
       .def("__contains__",
            [](const History& self, const std::string& name) {
              return self.Find(name).count > 0;
@@ -276,21 +293,21 @@ void BindState(py::class_<Simulation>& simulation) {
             return ObserveBody(self.model(), self.state(),
                                IndexOf(name, self.model().bodies()));
           },
-          py::arg("name"))
+          py::arg("name"), Doc("Simulation.body"))
       .def(
           "node",
           [](const Simulation& self, const std::string& name) {
             return ObserveNode(self.model(), self.state(),
                                IndexOf(name, self.model().nodes()));
           },
-          py::arg("name"))
+          py::arg("name"), Doc("Simulation.node"))
       .def(
           "line",
           [](const Simulation& self, const std::string& name) {
             return ObserveLine(self.model(), self.state(),
                                IndexOf(name, self.model().lines()));
           },
-          py::arg("name"))
+          py::arg("name"), Doc("Simulation.line"))
       .def_property_readonly("invariants",
                              [](const Simulation& self) {
                                return Rounded(self.monitor().latest());
@@ -318,7 +335,7 @@ void BindSimulation(py::module_& module) {
                                          NumThreads(threads));
            }),
            py::arg("case"), py::kw_only(), py::arg("overrides") = py::none(),
-           py::arg("threads") = 1)
+           py::arg("threads") = 1, Doc("Simulation.__init__"))
       .def_static(
           "from_file",
           [](const py::object& path, const py::object& overrides, int threads) {
@@ -326,15 +343,16 @@ void BindSimulation(py::module_& module) {
                                         NumThreads(threads));
           },
           py::arg("path"), py::kw_only(), py::arg("overrides") = py::none(),
-          py::arg("threads") = 1)
+          py::arg("threads") = 1, Doc("Simulation.from_file"))
       .def("run", &Run, py::arg("steps") = py::none(), py::kw_only(),
-           py::arg("every") = py::none(), py::arg("progress") = py::none())
+           py::arg("every") = py::none(), py::arg("progress") = py::none(),
+           Doc("Simulation.run"))
       .def(
           "advance",
           [](Simulation& self, int64_t steps) {
             self.Run({.num_steps = NotNegative(steps, "steps")});
           },
-          py::arg("steps") = 1)
+          py::arg("steps") = 1, Doc("Simulation.advance"))
       .def_property_readonly("history", &Simulation::history);
   BindModel(simulation);
   BindState(simulation);
@@ -356,10 +374,14 @@ PYBIND11_MODULE(_emmy, module) {
   emmy::python::BindResults(scope);
   emmy::python::BindSimulation(scope);
   scope.attr("__name__") = "emmy._emmy";
-  module.def("build_info", [] {
-    const emmy::BuildInfo build = emmy::GetBuildInfo();
-    return py::dict(py::arg("version") = build.version,
-                    py::arg("compiler") = build.compiler,
-                    py::arg("flags") = build.flags);
-  });
+  module.def(
+      "build_info",
+      [] {
+        const emmy::BuildInfo build = emmy::GetBuildInfo();
+        return py::dict(py::arg("version") = build.version,
+                        py::arg("compiler") = build.compiler,
+                        py::arg("flags") = build.flags);
+      },
+      emmy::python::Doc("build_info"));
+  emmy::python::SetDocstrings(module);
 }

@@ -157,7 +157,8 @@ class Simulation:
         *,
         overrides: Optional[Mapping[str, Any]] = None,
         threads: int = 1,
-    ) -> "Simulation": ...
+    ) -> "Simulation":
+        """The same from a case file; messages of errors begin with `path`."""
     def run(
         self,
         steps: Optional[int] = None,
@@ -208,9 +209,12 @@ class Simulation:
     @property
     def strain(self) -> _Array:
         """View, like `position`."""
-    def body(self, name: str) -> BodyMotion: ...
-    def node(self, name: str) -> PointMotion: ...
-    def line(self, name: str) -> LineMotion: ...
+    def body(self, name: str) -> BodyMotion:
+        """Of the present state, as all that is observed here."""
+    def node(self, name: str) -> PointMotion:
+        """Of one of `nodes`."""
+    def line(self, name: str) -> LineMotion:
+        """Of one of `lines`."""
     @property
     def invariants(self) -> Invariants: ...
     @property

@@ -1,6 +1,7 @@
 """The type stubs name what the module has, no more and no less."""
 import ast
 import pathlib
+import pydoc
 from collections.abc import Mapping
 
 import emmy
@@ -37,6 +38,32 @@ def test_the_same_members():
         if any(ast.unparse(base).startswith("Mapping") for base in node.bases):
             stubs |= set(dir(Mapping))
         assert public(stubs) == public(vars(getattr(_emmy, node.name))), node.name
+
+
+def members():
+    """Qualified name, node of the stubs and object of the module."""
+    for node in STUBS.body:
+        if not isinstance(node, (ast.ClassDef, ast.FunctionDef)):
+            continue
+        if node.name.startswith("_"):
+            continue
+        yield node.name, node, getattr(_emmy, node.name)
+        for item in getattr(node, "body", []):
+            if isinstance(item, ast.FunctionDef):
+                name = f"{node.name}.{item.name}"
+                yield name, item, getattr(getattr(_emmy, node.name), item.name)
+
+
+def test_help_says_what_the_stubs_say():
+    texts = 0
+    for name, node, item in members():
+        text = ast.get_docstring(node)
+        if text:
+            assert text in (item.__doc__ or ""), name
+            texts += 1
+    assert texts > 20
+    shown = pydoc.render_doc(emmy.Simulation, renderer=pydoc.plaintext)
+    assert "one thread at a time" in shown and "Goes on without" in shown
 
 
 def test_types_are_shipped():
