@@ -26,6 +26,7 @@
 #include "emmy/io/case_writer.h"
 #include "python/docstrings.h"
 #include "python/history.h"
+#include "python/lock.h"
 #include "python/simulation.h"
 #include "python/views.h"
 
@@ -83,20 +84,36 @@ size_t IndexOf(const std::string& name, const std::vector<Named>& parts) {
       absl::StrCat(name, ": there are: ", absl::StrJoin(Names(parts), ", ")));
 }
 
+// The result of a call that may run any code of Python.
+template <typename Function>
+py::object Result(const Function& function) {
+  PyObject* const result = CallPython(function);
+  if (result == nullptr) throw py::error_already_set();
+  return py::reinterpret_steal<py::object>(result);
+}
+
+// module.function(value)
+py::object Call(const char* module, const char* function,
+                const py::object& value) {
+  const py::object callable = py::module_::import(module).attr(function);
+  return Result(
+      [&] { return PyObject_CallOneArg(callable.ptr(), value.ptr()); });
+}
+
 // "pointer=value" as the program's --set has it.
 std::vector<std::string> Overrides(const py::object& overrides) {
-  return py::module_::import("emmy._case")
-      .attr("settings")(overrides)
+  return Call("emmy._case", "settings", overrides)
       .cast<std::vector<std::string>>();
 }
 
 // The bytes of a file's name, which need not be UTF-8.
 std::string FileName(const py::object& path) {
-  PyObject* bytes = nullptr;
-  if (PyUnicode_FSConverter(path.ptr(), &bytes) == 0) {
-    throw py::error_already_set();
-  }
-  return py::reinterpret_steal<py::bytes>(bytes);
+  const py::bytes bytes = Result([&]() -> PyObject* {
+    PyObject* converted = nullptr;
+    return PyUnicode_FSConverter(path.ptr(), &converted) != 0 ? converted
+                                                              : nullptr;
+  });
+  return bytes;
 }
 
 int64_t NotNegative(int64_t value, const char* name) {
@@ -253,8 +270,9 @@ void BindModel(py::class_<Simulation>& simulation) {
   simulation
       .def_property_readonly("case",
                              [](const Simulation& self) {
-                               return py::module_::import("json").attr("loads")(
-                                   WriteCase(self.description()));
+                               return Call(
+                                   "json", "loads",
+                                   py::str(WriteCase(self.description())));
                              })
       .def_property_readonly(
           "name",
@@ -328,11 +346,9 @@ void BindSimulation(py::module_& module) {
   simulation
       .def(py::init([](const py::object& description,
                        const py::object& overrides, int threads) {
-             return Simulation::FromText(py::module_::import("emmy._case")
-                                             .attr("text")(description)
-                                             .cast<std::string>(),
-                                         Overrides(overrides),
-                                         NumThreads(threads));
+             return Simulation::FromText(
+                 Call("emmy._case", "text", description).cast<std::string>(),
+                 Overrides(overrides), NumThreads(threads));
            }),
            py::arg("case"), py::kw_only(), py::arg("overrides") = py::none(),
            py::arg("threads") = 1, Doc("Simulation.__init__"))

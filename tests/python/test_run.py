@@ -86,7 +86,7 @@ def test_ctrl_c_ends_a_run(box):
     assert np.isfinite(simulation.history.data).all()
 
 
-# Ctrl-C while a thread runs: the interpreter shuts down around that thread, and
+# Ctrl-C while a thread works: the interpreter shuts down around that thread, and
 # takes long enough for it to ask for Python's lock, which it gets no more.
 INTERRUPTED = """
 import signal, sys, threading, time
@@ -98,38 +98,55 @@ class LongGone:
         self.sleep(0.5)
 
 def progress(done, total):
-    time.sleep({seconds_in_progress})
+    time.sleep(float(sys.argv[4]))
 
+class Case(dict):
+    def __iter__(self, sleep=time.sleep):
+        while True:
+            sleep(0.1)
+
+class Path:
+    def __fspath__(self, sleep=time.sleep):
+        while True:
+            sleep(0.1)
+
+def run(steps=10**12, progress=None):
+    simulation = emmy.Simulation.from_file(sys.argv[1])
+    simulation.run(steps, every=steps, progress=progress)
+
+works = {
+    "run": run,
+    "progress": lambda: run(progress=progress),
+    "case": lambda: emmy.Simulation(Case()),
+    "path": lambda: emmy.Simulation.from_file(Path()),
+}
 sys.long_gone = LongGone()
 signal.signal(signal.SIGINT, signal.default_int_handler)
-simulation = emmy.Simulation.from_file(sys.argv[1])
 thread = threading.Thread(
-    target=simulation.run, daemon={daemon}, args=({steps},),
-    kwargs=dict(every={steps}, progress={progress}))
+    target=works[sys.argv[2]], daemon=sys.argv[3] == "daemon")
 thread.start()
 time.sleep(0.3)
-print("running", flush=True)
+print("working", flush=True)
 thread.join()
 """
 
 
-@pytest.mark.parametrize("daemon", [True, False])
+@pytest.mark.parametrize("kind", ["daemon", "no daemon"])
 @pytest.mark.parametrize(
-    "progress, seconds", [(None, 0), ("progress", 0), ("progress", 0.2)]
+    "work, seconds",
+    [("run", 0), ("progress", 0), ("progress", 0.2), ("case", 0), ("path", 0)],
 )
-def test_ctrl_c_does_not_abort_a_process_with_a_running_thread(
-    daemon, progress, seconds, examples
+def test_ctrl_c_does_not_abort_a_process_with_a_working_thread(
+    kind, work, seconds, examples
 ):
-    script = INTERRUPTED.format(
-        daemon=daemon, progress=progress, seconds_in_progress=seconds,
-        steps=FOREVER)
     with subprocess.Popen(
-        [sys.executable, "-c", script, str(examples / "paper_box.json")],
+        [sys.executable, "-c", INTERRUPTED, examples / "paper_box.json", work,
+         kind, str(seconds)],
         stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
     ) as process:
         errors = None
         try:
-            assert process.stdout.readline() == "running\n"
+            assert process.stdout.readline() == "working\n"
             deadline = time.monotonic() + 60
             while errors is None and time.monotonic() < deadline:
                 # Before join() it does not end the wait for such a thread.
