@@ -2,10 +2,10 @@
 
 #include <chrono>
 #include <exception>
-#include <sstream>
 #include <utility>
 
 #include "absl/status/statusor.h"
+#include "emmy/diagnostics/watched_run.h"
 #include "emmy/integrate/simulate.h"
 #include "emmy/io/history.h"
 #include "python/lock.h"
@@ -17,14 +17,6 @@ using Clock = std::chrono::steady_clock;
 
 [[noreturn]] void ThrowInputError(const absl::Status& status) {
   throw InputError(std::string(status.message()));
-}
-
-// The words of the program `emmy` for the same end.
-std::string NotFiniteMessage(const State& state) {
-  std::ostringstream message;
-  message << "energy or momentum is not finite after step " << state.step
-          << " at " << state.time.value << " s";
-  return message.str();
 }
 
 // Python's part in a run that does not hold its lock.
@@ -143,25 +135,19 @@ void Simulation::Run(const RunOptions& options) {
 
   Listener listener(options.progress, options.num_steps);
   SimulationReport report;
-  bool is_finite = true;
   std::exception_ptr error;
   try {
     Unlocked unlocked;
     record();
     report =
-        Simulate(integrator_, state, options.num_steps,
-                 [&](const State& reached, const StepReport& step) {
-                   monitor_.Observe(reached);
-                   iterations_ = step.iterations;
-                   is_finite = IsFinite(monitor_.latest());
-                   if (!is_finite) return false;
-                   const int64_t done = reached.step - first;
-                   if (records && reached.step % options.record_every == 0) {
-                     record();
-                   }
-                   return listener.Listen(done, unlocked);
-                 });
-    if (is_finite) record();  // The last step reached.
+        WatchedRun(integrator_, model(), state, options.num_steps, monitor_,
+                   [&](const State& reached, const StepReport& step) {
+                     iterations_ = step.iterations;
+                     if (records && reached.step % options.record_every == 0)
+                       record();
+                     return listener.Listen(reached.step - first, unlocked);
+                   });
+    record();  // The last step reached.
   } catch (...) {
     error = std::current_exception();  // Of memory that ran out.
   }
@@ -169,7 +155,6 @@ void Simulation::Run(const RunOptions& options) {
   if (listener.error() != nullptr) std::rethrow_exception(listener.error());
   if (error != nullptr) std::rethrow_exception(error);
   if (!report.ok()) throw StepError(prefix_ + report.message);
-  if (!is_finite) throw StepError(prefix_ + NotFiniteMessage(state));
 }
 
 }  // namespace emmy::python

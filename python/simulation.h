@@ -52,10 +52,8 @@ class Simulation {
   // Steps without Python's lock, which it takes ten times a second to look for
   // Ctrl-C. Throws StepError if a step fails, and whatever a signal handler or
   // `progress` raises; the state is that after the last good step, and
-  // history() ends with it. Only a step whose energy or momentum is not finite
-  // is seen after it is made: the state is then that step's, and history() ends
-  // before it. If memory runs out, history() has the rows for which there was
-  // some.
+  // history() ends with it. If memory runs out, history() has the rows for
+  // which there was some.
   void Run(const RunOptions& options);
 
   // The rows of the last run that recorded any; else null.

@@ -31,6 +31,7 @@
 #include "emmy/diagnostics/invariant_monitor.h"
 #include "emmy/diagnostics/invariants.h"
 #include "emmy/diagnostics/structure_motion.h"
+#include "emmy/diagnostics/watched_run.h"
 
 // Files.
 #include "emmy/io/case.h"

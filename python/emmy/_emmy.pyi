@@ -15,9 +15,9 @@ class InputError(ValueError):
     expected and what was found, as that of the program `emmy`."""
 
 class StepError(RuntimeError):
-    """A step that could not be computed, or whose energy or momentum is not
-    finite. The simulation is as before the former, and as after the latter; its
-    history ends before either."""
+    """A step that could not be computed, or whose state is no result: energy or
+    momentum is not finite, or a body has turned inside out. The simulation and
+    its history end with the last good step."""
 
 class _BuildInfo(TypedDict):
     version: str

@@ -184,3 +184,12 @@ def test_counts_out_of_range(box):
         simulation.run(1, every=0)
     with pytest.raises(TypeError):
         simulation.run(1.5)
+
+
+def test_a_body_that_turns_inside_out_ends_the_run_at_the_last_good_step(box):
+    sim = emmy.Simulation(box, overrides={
+        "/rigid_bodies/0/penalty": 1, "/integrator/time_step": 1})
+    with pytest.raises(emmy.StepError, match="turned inside out") as caught:
+        sim.run(100, every=1)
+    assert f"step {sim.step + 1} at t = {sim.step} s" in str(caught.value)
+    assert sim.history["step"][-1] == sim.step

@@ -9,9 +9,8 @@
 #include "absl/status/status.h"
 #include "absl/status/statusor.h"
 #include "absl/strings/str_format.h"
-#include "emmy/diagnostics/check_state.h"
 #include "emmy/diagnostics/invariant_monitor.h"
-#include "emmy/diagnostics/invariants.h"
+#include "emmy/diagnostics/watched_run.h"
 #include "emmy/integrate/simulate.h"
 #include "tools/cli/interrupt.h"
 #include "tools/cli/progress.h"
@@ -139,36 +138,26 @@ RunResult RunCase(const RunOptions& options,
     if (files_ok()) checkpointer.Write(state.step);
   }
   Progress progress(state.step, last_step, options.quiet);
-  absl::Status sound;
-  State last_good = state;
-
   SimulationReport report;
   if (files_ok()) {
-    report = Simulate(integrator, state, last_step - state.step,
-                      [&](const State& reached, const StepReport& step) {
-                        const Invariants measured =
-                            MeasureInvariants(loaded.model, reached);
-                        sound = CheckState(loaded.model, reached, measured);
-                        if (!sound.ok()) return false;
-                        monitor.Observe(measured);
-                        last_good = reached;
-                        effort.total_iterations += step.iterations;
-                        effort.max_iterations =
-                            std::max(effort.max_iterations, step.iterations);
-                        effort.last_iterations = step.iterations;
-                        if (reached.step % output_every == 0) {
-                          recorder.Record(reached, step.iterations);
-                        }
-                        if (recorder.status().ok()) {
-                          checkpointer.Stepped(reached.step);
-                        }
-                        progress.Update(reached.step);
-                        return files_ok() && !IsInterrupted();
-                      });
+    report =
+        WatchedRun(integrator, loaded.model, state, last_step - state.step,
+                   monitor, [&](const State& reached, const StepReport& step) {
+                     effort.total_iterations += step.iterations;
+                     effort.max_iterations =
+                         std::max(effort.max_iterations, step.iterations);
+                     effort.last_iterations = step.iterations;
+                     if (reached.step % output_every == 0) {
+                       recorder.Record(reached, step.iterations);
+                     }
+                     if (recorder.status().ok()) {
+                       checkpointer.Stepped(reached.step);
+                     }
+                     progress.Update(reached.step);
+                     return files_ok() && !IsInterrupted();
+                   });
   }
   progress.Clear();
-  const int64_t reached_step = state.step;
-  if (!sound.ok()) state = last_good;
   // Before the row of an end that is no output step: whoever goes on, goes on
   // without it.
   if (files_ok()) checkpointer.Write(state.step);
@@ -181,10 +170,6 @@ RunResult RunCase(const RunOptions& options,
   summary.status = RunStatus::kFailed;
   if (!report.ok()) {
     summary.message = report.message;
-  } else if (!sound.ok()) {
-    summary.message = absl::StrFormat(
-        "step %d at t = %.6g s: %s; the state is that of the last good step",
-        reached_step, state.time.value, sound.message());
   } else if (!recorder.status().ok()) {
     summary.message = absl::StrFormat("%s", recorder.status().message());
   } else if (!checkpointer.status().ok()) {
@@ -197,7 +182,7 @@ RunResult RunCase(const RunOptions& options,
     summary.status = RunStatus::kCompleted;
   }
   result.can_be_resumed =
-      summary.status != RunStatus::kCompleted && report.ok() && sound.ok() &&
+      summary.status != RunStatus::kCompleted && report.ok() &&
       (checkpointer.has_written() || options.resume != nullptr);
   summary.steps = state.step;
   summary.time = state.time.value;

@@ -16,7 +16,8 @@ namespace emmy {
 //   where an ANCF body has turned inside out, det [e₁ e₂ e₃] <= 0: its strain
 //   energy knows no difference between a frame and its mirror image, so that a
 //   penalty too soft for the step lets it through; such a body has no attitude.
-// `invariants` are those of `state`. A step does not look for this itself.
+// `invariants` are those of `state`. A step does not look for this itself, a
+// WatchedRun does.
 EMMY_EXPORT absl::Status CheckState(const Model& model, const State& state,
                                     const Invariants& invariants);
 

@@ -15,6 +15,7 @@ inline const char* FailureText(Termination termination) {
       return "a value is not finite";
     case Termination::kConverged:
     case Termination::kMaxIterations:
+    case Termination::kUnsound:  // Not of an iteration.
       break;
   }
   return "the iteration does not converge";

@@ -26,6 +26,7 @@ enum class Termination {
   kMaxIterations,    // The state is unchanged.
   kSingularTangent,  // The state is unchanged; `message` names the element.
   kNonFinite,        // The state is unchanged; a NaN or infinity appeared.
+  kUnsound,          // Of a WatchedRun: CheckState says why.
 };
 
 // How the iteration of a step ended.
