@@ -191,6 +191,19 @@ TEST_F(RunTest, AnInterruptEndsTheRunAfterAWholeRow) {
   EXPECT_EQ(Column(0).back(), std::to_string(summary["steps"].get<int64_t>()));
 }
 
+// A run that waits for a reader of its history, so that it cannot end by
+// itself: the first two signals are one wish, the third is another.
+TEST_F(RunTest, OnlyALaterSignalEndsTheRunAtOnce) {
+  const ProgramResult result = Shell(
+      "mkdir out; mkfifo out/history.csv\n"
+      "\"$EMMY\" run box.json --output out &\n"
+      "sleep 0.5; kill -TERM $!; sleep 0.5; kill -TERM $!; sleep 0.2\n"
+      "kill -0 $! && echo runs\n"
+      "sleep 2; kill -TERM $!\nwait $!\n");
+  EXPECT_EQ(result.out, "runs\n");
+  EXPECT_EQ(result.exit_status, 128 + 15);
+}
+
 TEST_F(RunTest, WritesNoProgressWhereThereIsNoTerminal) {
   const ProgramResult result = Shell(RunUntil("sleep 1.5"));
   EXPECT_THAT(result.err, StartsWith("box.json: interrupted after step "));
