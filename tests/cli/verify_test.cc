@@ -60,12 +60,12 @@ TEST_F(VerifyTest, WritesReportAndFigures) {
   const ProgramResult result =
       Run("verify --only figures/paper_6 --output out/report");
   EXPECT_EQ(result.exit_status, 0) << result.err;
-  const auto json = nlohmann::json::parse(Read("out/report/report.json"));
-  EXPECT_EQ(json.at("pass"), true);
-  EXPECT_EQ(json.at("claims").at(0).at("id"), "figures/paper_6");
-  EXPECT_EQ(json.at("command"),
+  const auto report = nlohmann::json::parse(Read("out/report/report.json"));
+  EXPECT_EQ(report.at("pass"), true);
+  EXPECT_EQ(report.at("claims").at(0).at("id"), "figures/paper_6");
+  EXPECT_EQ(report.at("command"),
             "emmy verify --only figures/paper_6 --output out/report");
-  EXPECT_GT(json.at("claims").at(0).at("wall_seconds"), 0.0);
+  EXPECT_GT(report.at("claims").at(0).at("wall_seconds"), 0.0);
   EXPECT_THAT(Read("out/report/index.html"), HasSubstr("All 1 claims hold"));
   EXPECT_THAT(Read("out/report/junit.xml"), HasSubstr("failures=\"0\""));
   EXPECT_THAT(Read("out/report/paper_figure_6.csv"), HasSubstr("time [s]"));
@@ -96,9 +96,9 @@ TEST_F(VerifyTest, ClaimThatFailsIsSaidEverywhereAndIsTheExitStatus) {
   EXPECT_THAT(result.out,
               AllOf(HasSubstr("FAILED external/pendulum_phase"),
                     HasSubstr("1 of 2 claims hold"), HasSubstr(command)));
-  const auto json = nlohmann::json::parse(Read("out/report.json"));
-  EXPECT_EQ(json.at("pass"), false);
-  const auto& values = json.at("claims").at(1).at("values");
+  const auto report = nlohmann::json::parse(Read("out/report.json"));
+  EXPECT_EQ(report.at("pass"), false);
+  const auto& values = report.at("claims").at(1).at("values");
   EXPECT_NEAR(values.at(0).at("value").get<double>(),
               1.0 - std::sqrt(9.81 / 9.82), 1e-7);
   EXPECT_THAT(Read("out/index.html"),
