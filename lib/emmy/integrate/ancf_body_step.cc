@@ -195,7 +195,6 @@ BodyStepResult AncfBodyStep::Iterate(const AncfBodyStart& start,
       if (strain_done && rotation_done) {
         // A penalty so stiff that the rounding of its stress turns the body is
         // no residual that an iteration could take away.
-        constexpr double kLargestShare = 1e-8;
         const double rates = std::max(
             {rate_scale, MaxAbs(start.rates), MaxAbs(*rate_increment)});
         if (rotation_floor <= kLargestShare * rates) {

@@ -93,7 +93,6 @@ BodyStepResult ConventionalBodyStep::Solve(
                           : monitor.Update(result.correction, floor);
     if (done) {
       // A step of so many turns that rounding alone changes the momentum.
-      constexpr double kLargestShare = 1e-8;
       const double rates =
           std::max({scale, start.angular_velocity.cwiseAbs().maxCoeff(),
                     change.cwiseAbs().maxCoeff()});

@@ -201,7 +201,6 @@ void ConventionalStructureStep::LimitTurns() {
 // and the work of the loads: an iterate that has run away is solved to the
 // round-off of its own size.
 bool ConventionalStructureStep::KeepsEnergy() const {
-  constexpr double kLargestShare = 1e-8;
   if (joints_.empty() || options_.tolerance.has_value()) return true;
   double energy = 0.0;
   for (const Body& body : bodies_) {
@@ -233,7 +232,7 @@ bool ConventionalStructureStep::KeepsEnergy() const {
 // ever. Far above rounding; a gap of that share moves the angular momentum, by
 // (CONJ-3), by as much of an impulse's moment.
 const ModelJoint* ConventionalStructureStep::OpenJoint() const {
-  constexpr double kLargestShare = 1e-11;
+  constexpr double kLargestGap = 1e-11;
   for (const Joint& joint : joints_) {
     if (joint.joint->num_held == 3) continue;
     const auto& [first, second] = joint.ends;
@@ -241,7 +240,7 @@ const ModelJoint* ConventionalStructureStep::OpenJoint() const {
         time_step_ * joint.closing_rate + (first.increment - second.increment);
     const double size = first.xi.norm() + second.xi.norm() +
                         bodies_[static_cast<size_t>(first.body)].gyration;
-    if (!(gap.norm() <= kLargestShare * size)) return joint.joint;
+    if (!(gap.norm() <= kLargestGap * size)) return joint.joint;
   }
   return nullptr;
 }

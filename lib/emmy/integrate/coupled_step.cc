@@ -400,7 +400,6 @@ void CoupledStep::GuessRigidTurn() {
 // which may be more than all the energy there is.
 bool CoupledStep::KeepsEnergy() const {
   if (options_.newton.tolerance.has_value()) return true;
-  constexpr double kLargestShare = 1e-8;
   double energy = 0.0;
   for (const Structure::Mass& mass : structure_->masses) {
     const double product =

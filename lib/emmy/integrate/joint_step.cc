@@ -129,7 +129,6 @@ BodyStepResult JointStep::Iterate() {
       if (rate_done && ((force_done && moment_done && work_done) ||
                         settled > kStagnationPatience)) {
         // An iterate that has run away, see CoupledStep.
-        constexpr double kLargestShare = 1e-8;
         if (residual_work <= kLargestShare * (sums.energy + sums.load_work)) {
           result.termination = Termination::kConverged;
         }

@@ -51,6 +51,10 @@ inline constexpr int kStagnationPatience = 20;
 // for a million.
 inline constexpr double kNegligibleRest = 0x1p-10;
 
+// The largest share of a motion, or of its energy, that an accepted step may
+// owe to rounding or to what its iteration left.
+inline constexpr double kLargestShare = 1e-8;
+
 // Judges when one sequence of corrections has reached round-off.     (EM-5)
 //
 // `floor` is the size that rounding alone can give a correction, from the
