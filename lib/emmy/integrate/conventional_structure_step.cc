@@ -132,8 +132,10 @@ absl::Status ConventionalStructureStep::GatherLines() {
       local.ends[e] = *end;
       local.ends[e].velocity_offset = line.end_velocity_offset[e];
       for (const WeightedVector& term : line.ends[e].terms) {
-        const auto& others = at_vector[static_cast<size_t>(term.vector)];
+        std::vector<size_t>& others =
+            at_vector[static_cast<size_t>(term.vector)];
         found.insert(found.end(), others.begin(), others.end());
+        others.clear();  // Once, or a hub would cost the square of its lines.
       }
     }
   }
