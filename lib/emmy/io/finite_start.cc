@@ -36,6 +36,21 @@ constexpr char kAngularMomentum[] =
     "the angular momentum [kg m^2/s] is a finite number";
 constexpr char kGravityEnergy[] = "the gravity energy [J] is a finite number";
 
+// Moves what is at the origin in `part`, as far as `place`, with gravity after
+// that.
+absl::Status CheckPosition(const std::string& pointer, const Vector3d& position,
+                           const Vector3d& gravity, Vector3d* place,
+                           ModelDescription* part) {
+  const std::string text = VectorText(position) + " m";
+  *place = position;
+  if (Overflows(*part)) {
+    return TooLarge(pointer + "/position", kAngularMomentum, text);
+  }
+  part->gravity = gravity;
+  if (!Overflows(*part)) return absl::OkStatus();
+  return TooLarge(pointer + "/position", kGravityEnergy, text);
+}
+
 // Adds one field after the other to a body at rest at the origin.
 absl::Status CheckBody(const std::string& pointer, const Vector3d& gravity,
                        const RigidBodyDescription& body) {
@@ -43,9 +58,7 @@ absl::Status CheckBody(const std::string& pointer, const Vector3d& gravity,
   part.rigid_bodies = {body};
   RigidBodyDescription& moved = part.rigid_bodies[0];
   moved.position.setZero();
-  moved.velocity.setZero();
   moved.angular_velocity.setZero();
-  moved.velocity = body.velocity;
   if (Overflows(part)) {
     return TooLarge(pointer + "/velocity", kKineticEnergy,
                     VectorText(body.velocity) + " m/s");
@@ -57,15 +70,7 @@ absl::Status CheckBody(const std::string& pointer, const Vector3d& gravity,
                                                       : "/angular_velocity"),
         kKineticEnergy, VectorText(body.angular_velocity) + " rad/s");
   }
-  moved.position = body.position;
-  if (Overflows(part)) {
-    return TooLarge(pointer + "/position", kAngularMomentum,
-                    VectorText(body.position) + " m");
-  }
-  part.gravity = gravity;
-  if (!Overflows(part)) return absl::OkStatus();
-  return TooLarge(pointer + "/position", kGravityEnergy,
-                  VectorText(body.position) + " m");
+  return CheckPosition(pointer, body.position, gravity, &moved.position, &part);
 }
 
 absl::Status CheckNode(const std::string& pointer, const Vector3d& gravity,
@@ -77,15 +82,8 @@ absl::Status CheckNode(const std::string& pointer, const Vector3d& gravity,
     return TooLarge(pointer + "/velocity", kKineticEnergy,
                     VectorText(velocity) + " m/s");
   }
-  part.nodes[0].position = node.position;
-  if (Overflows(part)) {
-    return TooLarge(pointer + "/position", kAngularMomentum,
-                    VectorText(node.position) + " m");
-  }
-  part.gravity = gravity;
-  if (!Overflows(part)) return absl::OkStatus();
-  return TooLarge(pointer + "/position", kGravityEnergy,
-                  VectorText(node.position) + " m");
+  return CheckPosition(pointer, node.position, gravity, &part.nodes[0].position,
+                       &part);
 }
 
 absl::Status CheckLine(const std::string& pointer, const ModelLine& line,
@@ -94,10 +92,6 @@ absl::Status CheckLine(const std::string& pointer, const ModelLine& line,
   if (!std::isfinite(line.element.stiffness())) {
     return FieldError(pointer, "a truss of finite stiffness E A [N]",
                       NumberText(line.element.stiffness()) + " N");
-  }
-  if (!std::isfinite(line.mass)) {
-    return FieldError(pointer, "a truss of finite mass [kg]",
-                      NumberText(line.mass) + " kg");
   }
   const DoubleDouble strain(state.strain.value(line.strain_offset),
                             state.strain.compensation(line.strain_offset));
