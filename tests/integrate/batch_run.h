@@ -15,6 +15,7 @@
 #include "emmy/model/model_builder.h"
 #include "tests/support/paper_box.h"
 #include "tests/support/random_source.h"
+#include "verification/models/body_state.h"
 
 namespace emmy {
 
@@ -90,27 +91,12 @@ inline State StateAfter(const BuiltModel& built, int num_steps,
   return state;
 }
 
-// One body's part of `state`, as the state of a model of this body alone.
-inline void CopyBody(const ModelBody& body, const State& state, State* alone) {
-  const auto copy = [](const CompensatedVector& from, Eigen::Index offset,
-                       CompensatedVector* to) {
-    to->value = from.value.segment(offset, to->value.size());
-    to->compensation =
-        from.compensation.segment(offset, to->compensation.size());
-  };
-  copy(state.position, body.position_offset, &alone->position);
-  copy(state.velocity, body.velocity_offset, &alone->velocity);
-  if (alone->strain.value.size() > 0) {
-    copy(state.strain, body.strain_offset, &alone->strain);
-  }
-}
-
 inline DoubleDouble EnergyOfBody(const ModelDescription& description,
                                  const BuiltModel& all, size_t index,
                                  const State& state) {
   BuiltModel alone =
       BuildModel(ModelOf(description.rigid_bodies[index])).value();
-  CopyBody(all.model.bodies()[index], state, &alone.state);
+  verification::CopyBody(all.model.bodies()[index], state, &alone.state);
   return MeasureInvariants(alone.model, alone.state).TotalEnergy();
 }
 

@@ -333,7 +333,7 @@ void ExpectKept(const ModelDescription& description, int64_t num_steps) {
     batch.Store(&state);
     for (size_t k = 0; k < alone.size(); ++k) {
       State& one = alone[k].state;
-      CopyBody(built.model.bodies()[k], state, &one);
+      verification::CopyBody(built.model.bodies()[k], state, &one);
       monitors[k].Observe(one);
     }
   }
