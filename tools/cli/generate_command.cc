@@ -98,7 +98,8 @@ Command AddGenerateCommand(CLI::App& app) {
   conventional_chain  up to 400000  the same of conventional bodies
   trussed_boxes       up to 150000  N boxes, neighbours joined by four trusses
 
-Exit status: 0 done; 1 the file cannot be written; 2 bad usage.
+Exit status: 0 done; 1 not all could be written (a full disk); 2 bad usage, or
+a file that cannot be opened.
 
 Examples:
   emmy generate net --size 60 --output net_60.json

@@ -1,6 +1,8 @@
 #include "tools/cli/interrupt.h"
 
+#include <atomic>
 #include <csignal>
+#include <cstdint>
 #include <ctime>
 
 namespace emmy {
@@ -10,18 +12,17 @@ namespace {
 // its group: what comes so soon is not a second wish.
 constexpr std::time_t kSameWish = 1;  // [s]
 
-volatile std::sig_atomic_t interrupted = 0;
-std::timespec first_signal = {};
+// When the first signal came [s], or none so far.
+constexpr int64_t kNone = -1;
+std::atomic<int64_t> first_signal = kNone;
+static_assert(std::atomic<int64_t>::is_always_lock_free);
 
 void OnSignal(int signal) {
   std::timespec now = {};
   clock_gettime(CLOCK_MONOTONIC, &now);
-  if (interrupted == 0) {
-    interrupted = 1;
-    first_signal = now;
-    return;
-  }
-  if (now.tv_sec - first_signal.tv_sec <= kSameWish) return;
+  int64_t first = kNone;
+  if (first_signal.compare_exchange_strong(first, now.tv_sec)) return;
+  if (now.tv_sec - first <= kSameWish) return;
   static_cast<void>(std::signal(signal, SIG_DFL));
   static_cast<void>(std::raise(signal));
 }
@@ -33,6 +34,6 @@ void CatchInterrupts() {
   static_cast<void>(std::signal(SIGTERM, OnSignal));
 }
 
-bool IsInterrupted() { return interrupted != 0; }
+bool IsInterrupted() { return first_signal != kNone; }
 
 }  // namespace emmy
