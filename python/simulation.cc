@@ -143,8 +143,9 @@ void Simulation::Run(const RunOptions& options) {
         WatchedRun(integrator_, model(), state, options.num_steps, monitor_,
                    [&](const State& reached, const StepReport& step) {
                      iterations_ = step.iterations;
-                     if (records && reached.step % options.record_every == 0)
+                     if (records && reached.step % options.record_every == 0) {
                        record();
+                     }
                      return listener.Listen(reached.step - first, unlocked);
                    });
     record();  // The last step reached.

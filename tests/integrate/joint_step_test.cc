@@ -7,11 +7,15 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "emmy/diagnostics/extended_state.h"
+#include "emmy/integrate/structure.h"
+#include "emmy/model/model_builder.h"
 #include "tests/integrate/allocation_counter.h"
 #include "tests/support/joined_boxes.h"
 #include "tests/support/structures.h"
@@ -150,6 +154,37 @@ TEST(JointStepRestTest, AStartFromRestTakesNoSystemOfAllCoordinates) {
     TestRun run(model, 1e-3);
     ASSERT_TRUE(run.Advance(1));
     EXPECT_EQ(run.num_factorizations(), 1);
+  }
+}
+
+// A plate with `count` boxes on it, each at a point of its own.
+ModelDescription PlateWithBoxes(int count) {
+  RigidBodyDescription plate = PaperBox();
+  plate.name = "plate";
+  ModelDescription model = ModelOf(plate);
+  for (int i = 0; i < count; ++i) {
+    RigidBodyDescription box = PaperBox();
+    box.name = "box_" + std::to_string(i);
+    const Vector3d point(1.5 * std::cos(i), 1.0 * std::sin(i), 0.5);
+    box.position = plate.position + point - Vector3d(0.0, 0.0, -0.5);
+    box.velocity = plate.velocity + plate.angular_velocity.cross(point) -
+                   box.angular_velocity.cross(Vector3d(0.0, 0.0, -0.5));
+    model.rigid_bodies.push_back(box);
+    model.shared_points.push_back(
+        {BodyPoint{"plate", point}, BodyPoint{box.name, {0.0, 0.0, -0.5}}});
+  }
+  return model;
+}
+
+// Its joints' couplings are as many as their square: 200 bodies are left to the
+// system of all coordinates, 20 are not.
+TEST(JointStepCreateTest, LeavesABodyWithAGreatManyJointsToAllCoordinates) {
+  for (const int count : {20, 200}) {
+    const BuiltModel built = BuildModel(PlateWithBoxes(count)).value();
+    const std::vector<Structure> structures = SplitIntoStructures(built.model);
+    ASSERT_EQ(structures.size(), 1U);
+    EXPECT_EQ(JointStep::Create(structures[0], 1e-3, {}, 1) == nullptr,
+              count == 200);
   }
 }
 

@@ -192,20 +192,18 @@ else()  # subfolder, fetched
     endif()
   endforeach()
   # Folders may be absolute, each by itself.
-  run(${configure} ${subfolder_arguments} -DCMAKE_INSTALL_PREFIX=/opt/p
-    -DCMAKE_INSTALL_LIBDIR=/opt/x/lib)
-  file(READ "${SCRATCH}/build/${folder}/emmy.pc" text)
-  if(NOT text MATCHES
-      "^prefix=/opt/p\nlibdir=/opt/x/lib\nincludedir=\\\${prefix}/include\n")
-    message(FATAL_ERROR "with an absolute folder of libraries: ${text}")
-  endif()
-  run(${configure} ${subfolder_arguments} -DCMAKE_INSTALL_LIBDIR=lib/here
-    -DCMAKE_INSTALL_INCLUDEDIR=/opt/x/include)
-  file(READ "${SCRATCH}/build/${folder}/emmy.pc" text)
-  if(NOT text MATCHES
-      "libdir=\\\${prefix}/lib/here\nincludedir=/opt/x/include\n")
-    message(FATAL_ERROR "with an absolute folder of headers: ${text}")
-  endif()
+  function(expect_in_pc expected)
+    run(${configure} ${subfolder_arguments} ${ARGN})
+    file(READ "${SCRATCH}/build/${folder}/emmy.pc" text)
+    if(NOT text MATCHES "${expected}")
+      message(FATAL_ERROR "emmy.pc with ${ARGN}: ${text}")
+    endif()
+  endfunction()
+  expect_in_pc(
+    "^prefix=/opt/p\nlibdir=/opt/x/lib\nincludedir=\\\${prefix}/include\n"
+    -DCMAKE_INSTALL_PREFIX=/opt/p -DCMAKE_INSTALL_LIBDIR=/opt/x/lib)
+  expect_in_pc("libdir=\\\${prefix}/lib/here\nincludedir=/opt/x/include\n"
+    -DCMAKE_INSTALL_LIBDIR=lib/here -DCMAKE_INSTALL_INCLUDEDIR=/opt/x/include)
   run(${configure} ${subfolder_arguments} -DEMMY_INSTALL=OFF)
   # Both are built with the parent's flags, and so agree.
   if(other_alignment)
