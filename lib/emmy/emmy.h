@@ -21,6 +21,7 @@
 #include "emmy/model/state.h"
 
 // Time.
+#include "emmy/integrate/body_batch.h"
 #include "emmy/integrate/energy_momentum.h"
 #include "emmy/integrate/simulate.h"
 

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <limits>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "emmy/diagnostics/invariant_monitor.h"
@@ -505,6 +506,26 @@ TEST_F(BodyBatchTest, RefusesWhatItDoesNotCover) {
                   .status()
                   .message(),
               HasSubstr("free rigid bodies"));
+}
+
+// A caller's mistakes, which would read and write beside the state.
+TEST_F(BodyBatchTest, AStateOfAnotherModelStopsTheProgram) {
+  const BuiltModel built = BuildModel(ModelOf(PaperBox())).value();
+  BodyBatch batch =
+      BodyBatch::Create(built.model, {.time_step = kStep}).value();
+  EXPECT_DEATH(batch.Step(1).ok(), "Load before Step");
+  State other =
+      BuildModel(ModelOf(PaperBox(Formulation::kConventional)))->state;
+  constexpr char kOther[] =
+      "a state of 7 positions, .* for a model of 12 positions";
+  EXPECT_DEATH(batch.Load(other), kOther);
+  batch.Load(built.state);
+  EXPECT_DEATH(batch.Store(&other), kOther);
+  EXPECT_DEATH(batch.Step(-1).ok(), "-1");
+  BodyBatch moved = std::move(batch);
+  EXPECT_TRUE(moved.Step(1).ok());
+  // NOLINTNEXTLINE(bugprone-use-after-move): what is tested.
+  EXPECT_DEATH(batch.Step(1).ok(), "a batch that was moved from");
 }
 
 }  // namespace

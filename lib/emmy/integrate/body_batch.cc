@@ -17,6 +17,7 @@
 #include "emmy/integrate/batch_lanes.h"
 #include "emmy/integrate/conventional_body_step.h"
 #include "emmy/integrate/failure_text.h"
+#include "emmy/model/state_size.h"
 
 namespace emmy {
 namespace {
@@ -257,11 +258,12 @@ absl::StatusOr<BodyBatch> BodyBatch::Create(const Model& model,
 }
 
 void BodyBatch::Load(const State& state) {
+  EMMY_CHECK(data_ != nullptr, "a batch that was moved from");
   Data& data = *data_;
   const Model& model = *data.model;
-  EMMY_CHECK(state.position.value.size() == model.num_positions(),
-             state.position.value.size()
-                 << " positions, not " << model.num_positions());
+  EMMY_CHECK(SizeOf(state) == SizeOf(model), "a state of " << SizeOf(state)
+                                                           << " for a model of "
+                                                           << SizeOf(model));
   data.step_number = state.step;
   data.time = state.time;
   data.is_loaded = true;
@@ -284,6 +286,7 @@ void BodyBatch::Load(const State& state) {
 }
 
 BatchReport BodyBatch::Step(int64_t num_steps) {
+  EMMY_CHECK(data_ != nullptr, "a batch that was moved from");
   Data& data = *data_;
   EMMY_CHECK(data.is_loaded, "Load before Step");
   EMMY_CHECK(num_steps >= 0, num_steps);
@@ -313,11 +316,12 @@ BatchReport BodyBatch::Step(int64_t num_steps) {
 }
 
 void BodyBatch::Store(State* state) const {
+  EMMY_CHECK(data_ != nullptr, "a batch that was moved from");
   Data& data = *data_;
   EMMY_CHECK(data.is_loaded, "Load before Store");
-  EMMY_CHECK(state->position.value.size() == data.model->num_positions(),
-             state->position.value.size()
-                 << " positions, not " << data.model->num_positions());
+  EMMY_CHECK(SizeOf(*state) == SizeOf(*data.model),
+             "a state of " << SizeOf(*state) << " for a model of "
+                           << SizeOf(*data.model));
   state->step = data.step_number;
   state->time = data.time;
   data.ForEachGroup([&](auto& group) {

@@ -22,6 +22,7 @@
 #include <vector>
 
 #include "absl/status/statusor.h"
+#include "emmy/base/export.h"
 #include "emmy/model/model.h"
 #include "emmy/model/state.h"
 #include "emmy/numerics/newton.h"
@@ -51,7 +52,7 @@ struct [[nodiscard]] BatchReport {
   bool ok() const { return failures.empty(); }
 };
 
-class BodyBatch {
+class EMMY_EXPORT BodyBatch {
  public:
   // `model` must outlive the batch. Fails with kInvalidArgument, naming the
   // option, if one is out of range or if the model has anything but free
@@ -62,12 +63,14 @@ class BodyBatch {
   BodyBatch& operator=(BodyBatch&&) noexcept;
   ~BodyBatch();
 
-  // Takes over a state of the model; bodies that had failed take part again.
+  // Takes over a state of the model (EMMY_CHECK: of its size); bodies that had
+  // failed take part again.
   void Load(const State& state);
 
   // Advances all bodies. Each is done with all steps before the next is begun,
   // so that many steps in a call cost less than many calls. A body that fails
-  // is left where it is and reported once; the others go on.
+  // is left where it is and reported once; the others go on. EMMY_CHECK: a
+  // state is loaded, and num_steps is not negative.
   BatchReport Step(int64_t num_steps);
 
   // Writes the state of all bodies, time and step number, of the state that
