@@ -53,8 +53,9 @@ int Main(int argc, char** argv) {
   emmy run examples/paper_box.json --output out  also its motion, as CSV
   emmy run --help                                more on a command
 
-Exit status: 0 done; 1 a check failed or the computation could not go on;
-2 bad input or usage, nothing written; 3 stopped by Ctrl-C or SIGTERM.)");
+Exit status: 0 done; 1 a check failed, the computation could not go on, or a
+file or standard output not be written; 2 bad input or usage, nothing written;
+3 stopped by Ctrl-C or SIGTERM.)");
   // The program's name is what a person types, not where this build put it.
   std::vector<std::string> command_line = {"emmy"};
   for (int i = 1; i < argc; ++i) command_line.emplace_back(argv[i]);

@@ -182,7 +182,7 @@ class Simulation:
         """Of the last call of run()."""
     @property
     def case(self) -> dict[str, Any]:
-        """The case with all defaults filled in."""
+        """The case with its defaults filled in, except lengths of trusses."""
     @property
     def name(self) -> str: ...
     @property

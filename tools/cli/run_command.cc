@@ -316,15 +316,17 @@ JSON, and no file is written. With it, DIR is made if needed; history.csv grows
 during the run, and summary.json is written at the end, also of a run that
 fails or is stopped by Ctrl-C ("status").
 
---threads helps structures of 4000 nodes and more, and chains of more than 512
-ANCF bodies; other models run on one thread. Results do not depend on it.
+--threads helps structures with trusses or springs from 4000 vectors on (a node
+is one, an ANCF body four), and chains of more than 512 ANCF bodies; other
+models run on one thread. Results do not depend on it.
 
 A run with --checkpoint that was stopped, by whatever, goes on with --resume as
 if it never had been: the same command line, with the file as it is, gives the
 same results to the last bit. --steps then still counts from the start.
 
-Exit status: 0 done; 1 the computation could not go on; 2 bad input or usage,
-nothing written; 3 stopped by Ctrl-C (SIGINT) or SIGTERM, after a whole step.
+Exit status: 0 done; 1 the computation could not go on, or a file or standard
+output not be written; 2 bad input or usage, nothing written; 3 stopped by
+Ctrl-C (SIGINT) or SIGTERM, after a whole step.
 
 Examples:
   emmy run examples/paper_box.json
