@@ -43,6 +43,24 @@ TEST(StagnationMonitorTest, GainingLessThanABitNearTheFloorIsStagnation) {
   EXPECT_TRUE(monitor.Update(1.5e-16, kFloor));
 }
 
+// By a twentieth a time: twenty times the last member is left.
+TEST(StagnationMonitorTest, SlowConvergenceNearTheFloorIsNotStagnation) {
+  StagnationMonitor monitor;
+  double correction = 1e3 * kFloor;
+  for (; correction > 4.0 * kFloor; correction *= 0.95) {
+    EXPECT_FALSE(monitor.Update(correction, kFloor)) << correction;
+  }
+  EXPECT_TRUE(monitor.Update(correction, kFloor));
+}
+
+TEST(StagnationMonitorTest, RoundingAboveItsEstimateEndsWhereItGrows) {
+  StagnationMonitor monitor;
+  EXPECT_FALSE(monitor.Update(1e-13, kFloor));
+  EXPECT_FALSE(monitor.Update(7e-15, kFloor));
+  EXPECT_FALSE(monitor.Update(5e-15, kFloor));
+  EXPECT_TRUE(monitor.Update(6e-15, kFloor));
+}
+
 // The next would be 1e-21: lost in a floor of 1e-16.
 TEST(StagnationMonitorTest, ACorrectionThatLeavesLessThanRoundingIsTheLast) {
   StagnationMonitor monitor;

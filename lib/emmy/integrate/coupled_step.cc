@@ -326,8 +326,10 @@ BodyStepResult CoupledStep::Iterate(bool exact) {
           moment_monitor.Update(moment.cwiseAbs().maxCoeff(), floors.moment);
       const bool work_done = work_monitor.Update(work, floors.work);
       if (rate_done) ++settled;
-      if (rate_done && ((force_done && moment_done && work_done) ||
-                        settled > kStagnationPatience)) {
+      const bool laws_done = force_done && moment_done && work_done;
+      const bool impatient = settled > kStagnationPatience;
+      if (impatient && !laws_done && !exact) return result;  // kMaxIterations
+      if (rate_done && (laws_done || impatient)) {
         // Slow: renewed before the next step, where it costs no iteration.
         constexpr int kManyIterations = 12;
         if (i > kManyIterations || slow > 1) renew_ = true;

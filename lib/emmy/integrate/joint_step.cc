@@ -126,8 +126,9 @@ BodyStepResult JointStep::Iterate() {
       const bool work_done = work_monitor.Update(
           residual_work, kUnitRoundoff * std::sqrt(sums.work_size));
       if (rate_done) ++settled;
-      if (rate_done && ((force_done && moment_done && work_done) ||
-                        settled > kStagnationPatience)) {
+      const bool laws_done = force_done && moment_done && work_done;
+      if (settled > kStagnationPatience && !laws_done) return result;
+      if (rate_done && laws_done) {
         // An iterate that has run away, see CoupledStep.
         if (residual_work <= kLargestShare * (sums.energy + sums.load_work)) {
           result.termination = Termination::kConverged;

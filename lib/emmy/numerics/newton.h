@@ -42,8 +42,9 @@ struct [[nodiscard]] StepReport {
 };
 
 // Iterations after corrections have reached round-off in which the finer
-// measures (net moment, work) may still settle. What has not shrunk by then is
-// their rounding, whatever its estimate says.
+// measures (net moment, work) may still settle. With the exact Jacobian, what
+// has not shrunk by then is their rounding, whatever its estimate says; with
+// any other it may be slow, and is not accepted.
 inline constexpr int kStagnationPatience = 20;
 
 // How much of a floor may be left with the same sign in every step: that adds
@@ -88,7 +89,10 @@ class StagnationMonitor {
     constexpr double kRatio = 0.5;     // Less than one bit gained.
     const double ratio = correction / previous_;
     const double rate = std::max(ratio, previous_ratio_);
-    const bool stopped = correction <= kNear * floor && !(ratio < kRatio);
+    // Above rounding it has to grow: where a sequence shrinks slowly, far more
+    // is left than its last member.
+    const double shrinks = correction <= kRounding * floor ? kRatio : 1.0;
+    const bool stopped = correction <= kNear * floor && !(ratio < shrinks);
     const bool vanishes =
         rate < kRatio && correction * rate <= negligible_ * floor;
     const bool vanished = explains_rounding_ &&
