@@ -149,6 +149,24 @@ INSTANTIATE_TEST_SUITE_P(
                 "box.json: /trusses/0/ends/1: must be a point whose distance "
                 "from the other end has a finite square [m], got [0, 0, "
                 "1e+155]"},
+        Mistake{"TrussTooHeavy", kGravity,
+                R"("nodes": [{"name": "n", "mass": 1, "position": [0, 0, 1],
+                    "velocity": [0, 1e10, 0]}],
+                   "trusses": [{"name": "t", "area": 1, "density": 1e300,
+                    "young_modulus": 1, "ends": [{"ground": [0, 0, 0]},
+                    {"node": "n"}]}], "rigid_bodies": [)",
+                "box.json: /trusses/0: must be a truss whose energy [J], "
+                "momentum [kg m/s] and angular momentum [kg m^2/s] at the "
+                "start are finite numbers, got a mass of 1e+300 kg, with an "
+                "end 1 m from the origin and one that moves at 1e+10 m/s"},
+        Mistake{"SharedPointsTooFar", kGravity,
+                R"("nodes": [{"name": "n", "mass": 1,
+                    "position": [1e308, 1e308, 1e308]}],
+                   "shared_points": [[{"body": "box", "point": [0, 0, 0]},
+                    {"node": "n"}]], "rigid_bodies": [)",
+                "box.json: /shared_points/0: must join points so near that "
+                "their distance [m] is a finite number, got [0, 0, 0] and "
+                "[1e+308, 1e+308, 1e+308] m"},
         Mistake{"SpringTooStiff", kGravity,
                 R"("nodes": [{"name": "n", "mass": 1}],
                    "springs": [{"name": "s", "stiffness": 1e300,

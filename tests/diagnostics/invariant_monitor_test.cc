@@ -52,6 +52,25 @@ TEST_F(InvariantMonitorTest, AStateThatIsNotFiniteIsNotForgotten) {
   EXPECT_TRUE(std::isnan(monitor.angular_momentum().max_relative_error()));
 }
 
+// Their squares are not doubles.
+TEST_F(InvariantMonitorTest, MeasuresMomentaOfAnySize) {
+  for (const double mass : {1e200, 1e-85}) {
+    RigidBodyDescription body = PaperBox();
+    body.angular_velocity.setZero();
+    const double speed = mass < 1.0 ? 1e-85 : 1.0;
+    body.velocity = {3.0 * speed, 4.0 * speed, 0.0};
+    body.inertia = TensorInertia{
+        .mass = mass, .tensor = mass * Matrix3d::Identity(), .volume = 1.0};
+    BuiltModel built = BuildModel(ModelOf(body)).value();
+    InvariantMonitor monitor(built.model, built.state);
+    EXPECT_NEAR(monitor.momentum().scale / (5.0 * mass * speed), 1.0, 1e-15);
+    built.state.velocity.value(0) *= 2.0;
+    monitor.Observe(built.state);
+    EXPECT_NEAR(monitor.momentum().max_relative_error(), 3.0 / std::sqrt(52.0),
+                1e-15);
+  }
+}
+
 TEST_F(InvariantMonitorTest, AStateOfAnotherModelStopsTheProgram) {
   InvariantMonitor monitor(built_.model, built_.state);
   EXPECT_DEATH(monitor.Observe(State{}),

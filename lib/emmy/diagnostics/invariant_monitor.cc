@@ -8,11 +8,22 @@
 namespace emmy {
 namespace {
 
+// The norm where squares may overflow or vanish: scaled by a power of two,
+// which changes no digit.
+double SafeNorm(const DoubleDouble3& vector) {
+  const double largest =
+      vector.ToDouble().cwiseAbs().maxCoeff<Eigen::PropagateNaN>();
+  if (!(largest > 0.0) || !std::isfinite(largest)) return largest;
+  const int exponent = std::max(std::ilogb(largest), -1000);
+  const DoubleDouble scale(std::ldexp(1.0, -exponent));
+  return std::ldexp(Norm(scale * vector).ToDouble(), exponent);
+}
+
 void Record(const DoubleDouble3& initial, const DoubleDouble3& now,
             MomentumRecord* record) {
   record->final = now.ToDouble();
-  record->max_error = Larger(record->max_error, Norm(now - initial).ToDouble());
-  record->scale = Larger(record->scale, record->final.norm());
+  record->max_error = Larger(record->max_error, SafeNorm(now - initial));
+  record->scale = Larger(record->scale, SafeNorm(now));
 }
 
 }  // namespace

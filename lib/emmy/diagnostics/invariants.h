@@ -44,7 +44,7 @@ struct Invariants {
 EMMY_EXPORT Invariants MeasureInvariants(const Model& model,
                                          const State& state);
 
-// Whether energy, momentum and angular momentum are finite.
+// Whether energy, momentum and angular momentum, and their norms, are finite.
 EMMY_EXPORT bool IsFinite(const Invariants& invariants);
 
 // Largest difference between a carried strain and (ANCF-4) of the coordinates

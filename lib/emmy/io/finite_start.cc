@@ -1,5 +1,6 @@
 #include "emmy/io/finite_start.h"
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 
@@ -86,8 +87,35 @@ absl::Status CheckNode(const std::string& pointer, const Vector3d& gravity,
                        &part);
 }
 
-absl::Status CheckLine(const std::string& pointer, const ModelLine& line,
-                       const State& state) {
+// What the mass of a line contributes to energy and momenta at the start.
+absl::Status CheckLineMass(const std::string& pointer, const Model& model,
+                           const State& state, const ModelLine& line) {
+  // The products and sums of double-double arithmetic overflow before doubles.
+  constexpr double kNearOverflow = 1e290;
+  double distance = 0.0;
+  double speed = 0.0;
+  for (const Point& end : line.ends) {
+    const PointMotion motion = ObservePoint(model, state, end);
+    distance = std::max(distance, motion.position.stableNorm());
+    speed = std::max(speed, motion.velocity.stableNorm());
+  }
+  const double gravity = model.gravity().stableNorm();
+  const double largest = line.mass * std::max({speed * speed, distance * speed,
+                                               speed, distance * gravity});
+  if (largest <= kNearOverflow) return absl::OkStatus();
+  return FieldError(
+      pointer,
+      "a truss whose energy [J], momentum [kg m/s] and angular momentum "
+      "[kg m^2/s] at the start are finite numbers",
+      absl::StrCat("a mass of ", NumberText(line.mass), " kg, with an end ",
+                   NumberText(distance),
+                   " m from the origin and one that moves "
+                   "at ",
+                   NumberText(speed), " m/s"));
+}
+
+absl::Status CheckLine(const std::string& pointer, const Model& model,
+                       const State& state, const ModelLine& line) {
   const bool is_spring = line.element.kind() == LineElement::Kind::kSpring;
   if (!std::isfinite(line.element.stiffness())) {
     return FieldError(pointer, "a truss of finite stiffness E A [N]",
@@ -96,7 +124,7 @@ absl::Status CheckLine(const std::string& pointer, const ModelLine& line,
   const DoubleDouble strain(state.strain.value(line.strain_offset),
                             state.strain.compensation(line.strain_offset));
   if (std::isfinite(line.element.Energy(strain).ToDouble())) {
-    return absl::OkStatus();
+    return CheckLineMass(pointer, model, state, line);
   }
   return FieldError(
       pointer,
@@ -129,7 +157,7 @@ absl::Status CheckFiniteStart(const ModelDescription& description,
     status =
         CheckLine(i < num_trusses ? absl::StrCat("/trusses/", i)
                                   : absl::StrCat("/springs/", i - num_trusses),
-                  model.lines()[i], state);
+                  model, state, model.lines()[i]);
   }
   if (!status.ok()) return status;
   return absl::InvalidArgumentError(

@@ -410,6 +410,14 @@ absl::Status ModelAssembler::CheckTogether(const std::string& pointer,
   const double gap = Norm(first.position - second.position).ToDouble();
   const double size = std::max({size_, first.position.ToDouble().norm(),
                                 second.position.ToDouble().norm()});
+  if (!std::isfinite(gap) || !std::isfinite(size)) {
+    const Vector3d a = first.position.ToDouble();
+    const Vector3d b = second.position.ToDouble();
+    return absl::InvalidArgumentError(absl::StrFormat(
+        "%s: must join points so near that their distance [m] is a finite "
+        "number, got [%.6g, %.6g, %.6g] and [%.6g, %.6g, %.6g] m",
+        pointer, a(0), a(1), a(2), b(0), b(1), b(2)));
+  }
   if (!(gap <= kAgreement * size)) {
     return absl::InvalidArgumentError(absl::StrFormat(
         "%s: must coincide at the start, got a gap of %.6g m (allowed: %g of "
