@@ -66,6 +66,17 @@ TEST(ParseJsonTest, RejectsTextAfterTheDocument) {
               StartsWith("line 2, column 1: not valid JSON: "));
 }
 
+// To the JSON library a NUL is the end of the text.
+TEST(ParseJsonTest, RejectsANulByteWhateverFollowsIt) {
+  const std::string nul(1, '\0');
+  EXPECT_EQ(ParseError("{}\n " + nul + "}}garbage{\"x\":"),
+            "line 2, column 2: not valid JSON: a NUL byte");
+  EXPECT_EQ(ParseError("{\"ä\": 1}" + nul),
+            "line 1, column 9: not valid JSON: a NUL byte");
+  EXPECT_EQ(ParseError(nul), "line 1, column 1: not valid JSON: a NUL byte");
+  EXPECT_TRUE(ParseJson(R"({"a": "\u0000"})").ok());
+}
+
 TEST(ParseJsonTest, RejectsAnEmptyText) {
   EXPECT_EQ(ParseError(""), "empty, must be a JSON object");
   EXPECT_EQ(ParseError(" \n"), "empty, must be a JSON object");

@@ -215,6 +215,12 @@ absl::StatusOr<Json> ParseJson(absl::string_view text) {
   if (text.find_first_not_of(" \t\r\n") == absl::string_view::npos) {
     return absl::InvalidArgumentError("empty, must be a JSON object");
   }
+  // The library takes it for the end, and would ignore what follows.
+  const size_t nul = text.find('\0');
+  if (nul != absl::string_view::npos) {
+    return absl::InvalidArgumentError(absl::StrCat(
+        LineAndColumn(text, nul + 1), ": not valid JSON: a NUL byte"));
+  }
   DocumentBuilder builder(text);
   if (!Json::sax_parse(text.begin(), text.end(), &builder)) {
     return builder.status();

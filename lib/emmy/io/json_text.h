@@ -3,6 +3,7 @@
 // Stricter than the JSON library alone, because a case that is read must be
 // the case that was written:
 //   * a key that occurs twice in an object is an error (not "the last wins");
+//   * a NUL byte is an error (not the end of the text);
 //   * a number outside the range of double (1e999) is an error at its place;
 //   * nesting is limited to kMaxJsonDepth, size to kMaxJsonBytes.
 // Internal to io: the only headers that show nlohmann::json are json_*.h.
