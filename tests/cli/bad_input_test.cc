@@ -107,6 +107,12 @@ INSTANTIATE_TEST_SUITE_P(
       "box")",
                 "box.json: /rigid_bodies/0/name: must be a name without "
                 "control characters, got \"b\\u0007\\u000ax\""},
+        Mistake{"LaterControlCharacterInAName", R"("name": "box",
+      "box")",
+                R"("name": "é\u0085\u009bx",
+      "box")",
+                "box.json: /rigid_bodies/0/name: must be a name without "
+                "control characters, got \"é\\u0085\\u009bx\""},
         Mistake{"NumbersTooLargeTogether", "[3, 2, 1]", "[3, 2e300, 1e300]",
                 "box.json: /rigid_bodies/0/box: must be a body with finite "
                 "mass, volume and second moments [SI], got inf kg, inf m^3 and "

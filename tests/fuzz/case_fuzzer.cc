@@ -10,6 +10,7 @@
 #include "emmy/integrate/energy_momentum.h"
 #include "emmy/io/case_file.h"
 #include "emmy/io/case_writer.h"
+#include "emmy/model/validation.h"
 
 namespace emmy {
 namespace {
@@ -27,10 +28,8 @@ bool IsSmall(const ModelDescription& model) {
 void CheckMessage(const absl::Status& status) {
   const absl::string_view message = status.message();
   EMMY_CHECK(!message.empty(), "no message");
-  for (const char c : message) {
-    EMMY_CHECK(static_cast<unsigned char>(c) >= 0x20 && c != 0x7F,
-               "control character in: " << std::string(message));
-  }
+  EMMY_CHECK(IsPrintable(std::string(message)),
+             "control character in: " << std::string(message));
 }
 
 void Try(absl::string_view text) {

@@ -152,8 +152,10 @@ TEST(PointerPartTest, EscapesSlashTildeAndControlCharacters) {
   EXPECT_EQ(PointerPart("a/b~c\n"), "/a~1b~0c\\n");
 }
 
-// Found by tools/fuzz: JSON text may hold U+007F unescaped.
+// Found by tools/fuzz: JSON text may hold U+007F unescaped, and what follows.
 TEST(ShowJsonTest, LeavesNoControlCharacter) {
+  EXPECT_EQ(ShowJson("é\xC2\x80„\xC2\x9F"), "\"é\\u0080„\\u009f\"");
+  EXPECT_EQ(PointerPart("é\xC2\x80„"), "/é\\u0080„");
   EXPECT_EQ(ShowJson("a\x7F\n"), "\"a\\u007f\\n\"");
   EXPECT_EQ(PointerPart("a\x7F\n"), "/a\\u007f\\n");
 }

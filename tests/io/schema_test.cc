@@ -199,11 +199,15 @@ TEST_F(SchemaTest, RejectsTheControlCharactersInNamesThatTheModelRejects) {
     "format": "emmy-case/1", "name": "n", "nodes": [{"name": "n", "mass": 1}],
     "integrator": {"method": "energy_momentum", "time_step": 1, "duration": 1}
   })");
-  for (int c = 0; c < 0x80; ++c) {
+  for (int c = 0; c < 0x100; ++c) {
+    std::string character(1, static_cast<char>(c));
+    if (c >= 0x80) {
+      character = {static_cast<char>(0xC0 | (c >> 6)),
+                   static_cast<char>(0x80 | (c & 0x3F))};
+    }
     for (const char* after : {"", "x"}) {
       json changed = node;
-      changed["nodes"][0]["name"] =
-          absl::StrCat("x", std::string(1, static_cast<char>(c)), after);
+      changed["nodes"][0]["name"] = absl::StrCat("x", character, after);
       const absl::StatusOr<Case> read = ParseCase(changed.dump());
       ASSERT_TRUE(read.ok());
       EXPECT_EQ(SchemaChecker(Schema()).IsValid(changed),
@@ -211,9 +215,11 @@ TEST_F(SchemaTest, RejectsTheControlCharactersInNamesThatTheModelRejects) {
           << "character " << c;
     }
   }
+  // Whose bytes are those of control characters in part.
   json changed = node;
-  changed["nodes"][0]["name"] = "Kn\xC3\xB6ten \xE6\x97\xA5\xC2\x80";
+  changed["nodes"][0]["name"] = "„Knöten“ 日本 😀";
   EXPECT_TRUE(SchemaChecker(Schema()).IsValid(changed));
+  EXPECT_TRUE(BuildModel(ParseCase(changed.dump())->model).ok());
 }
 
 // What the schema says of ranges, the reader or the model builder says too.

@@ -4,7 +4,9 @@
 
 #include <cstdlib>
 #include <limits>
+#include <string>
 
+#include "absl/strings/str_format.h"
 #include "tests/support/random_source.h"
 
 namespace emmy {
@@ -52,6 +54,32 @@ TEST(ValidationTest, NumberTextReadsBackAsTheSameNumber) {
     EXPECT_EQ(std::strtod(NumberText(value).c_str(), nullptr), value);
   }
   EXPECT_EQ(NumberText(0.1), "0.1");
+}
+
+// The character below U+0100 of that number.
+std::string Utf8(int character) {
+  if (character < 0x80) return std::string(1, static_cast<char>(character));
+  return {static_cast<char>(0xC0 | (character >> 6)),
+          static_cast<char>(0x80 | (character & 0x3F))};
+}
+
+TEST(ValidationTest, ControlCharactersAreNotPrintable) {
+  for (int c = 0; c < 0x100; ++c) {
+    const bool is_control = c < 0x20 || (c >= 0x7F && c < 0xA0);
+    const std::string text = Utf8(c);
+    EXPECT_EQ(IsPrintable("x" + text + "y"), !is_control) << c;
+    EXPECT_EQ(
+        NameText("x" + text + "y"),
+        is_control ? absl::StrFormat("\"x\\u%04xy\"", c) : "\"x" + text + "y\"")
+        << c;
+  }
+}
+
+TEST(ValidationTest, LettersWithBytesOfControlCharactersArePrintable) {
+  for (const std::string text : {"é", "„“", "日本", "€", "😀", "\xC2"}) {
+    EXPECT_TRUE(IsPrintable(text)) << text;
+    EXPECT_EQ(NameText(text), "\"" + text + "\"");
+  }
 }
 
 }  // namespace

@@ -24,6 +24,24 @@ bool HasType(const Json& value, const std::string& type) {
          value.get<double>() == std::floor(value.get<double>());
 }
 
+// Those of valid UTF-8: a pattern is about characters, not about bytes.
+std::wstring Characters(const std::string& text) {
+  std::wstring characters;
+  for (const char c : text) {
+    const auto byte = static_cast<unsigned char>(c);
+    if ((byte & 0xC0U) == 0x80U) {
+      const auto begun = static_cast<unsigned>(characters.back());
+      characters.back() = static_cast<wchar_t>((begun << 6U) | (byte & 0x3FU));
+    } else if (byte < 0x80U) {
+      characters += static_cast<wchar_t>(byte);
+    } else {  // The ones before the first zero tell how many bytes follow.
+      const unsigned bits = byte < 0xE0U ? 0x1FU : byte < 0xF0U ? 0x0FU : 0x07U;
+      characters += static_cast<wchar_t>(byte & bits);
+    }
+  }
+  return characters;
+}
+
 // A keyword says nothing about values of other types.
 bool IsAbout(const std::string& keyword, const Json& value) {
   static const auto& kNumberKeywords = *new std::set<std::string>{
@@ -84,8 +102,8 @@ bool SchemaChecker::CheckKeyword(const Json& schema, const std::string& keyword,
     return value.get<std::string>().size() >= rule.get<size_t>();
   }
   if (keyword == "pattern") {  // Anywhere in the text.
-    return std::regex_search(value.get<std::string>(),
-                             std::regex(rule.get<std::string>()));
+    return std::regex_search(Characters(value.get<std::string>()),
+                             std::wregex(Characters(rule.get<std::string>())));
   }
   if (keyword == "minItems") return value.size() >= rule.get<size_t>();
   if (keyword == "maxItems") return value.size() <= rule.get<size_t>();

@@ -10,6 +10,7 @@
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_replace.h"
 #include "absl/strings/string_view.h"
+#include "emmy/model/validation.h"
 
 namespace emmy {
 namespace {
@@ -25,9 +26,8 @@ bool IsUtf8Continuation(char c) {
 
 // On one line and without control characters, whatever is in it.
 std::string Printable(const Json& value) {
-  return absl::StrReplaceAll(
-      value.dump(-1, ' ', false, Json::error_handler_t::replace),
-      {{"\x7F", "\\u007f"}});  // The one that JSON leaves as it is.
+  return EscapeControls(  // JSON leaves those from U+007F on as they are.
+      value.dump(-1, ' ', false, Json::error_handler_t::replace));
 }
 
 // "line L, column C" of the byte number `position` (the first is 1), counting

@@ -1,6 +1,5 @@
 #include "emmy/model/validation.h"
 
-#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
@@ -24,8 +23,16 @@ std::string WithUnit(std::string_view expectation, std::string_view unit) {
   return text;
 }
 
-bool IsControl(char c) {
-  return static_cast<unsigned char>(c) < 0x20 || c == 0x7F;
+// Bytes of the control character that the UTF-8 `text` begins with; 0: none.
+size_t ControlBytes(std::string_view text) {
+  const auto byte = [text](size_t i) {
+    return static_cast<unsigned char>(text[i]);
+  };
+  if (text.empty()) return 0;
+  if (byte(0) < 0x20 || byte(0) == 0x7F) return 1;
+  const bool is_later =
+      text.size() > 1 && byte(0) == 0xC2 && byte(1) >= 0x80 && byte(1) < 0xA0;
+  return is_later ? 2 : 0;
 }
 
 }  // namespace
@@ -37,20 +44,29 @@ std::string NumberText(double value) {
   return std::string(buffer.data(), result.ptr);
 }
 
-std::string NameText(std::string_view name) {
-  std::string text = "\"";
-  for (const char c : name) {
-    if (IsControl(c)) {
-      text += absl::StrFormat("\\u%04x", static_cast<unsigned>(c));
-    } else {
-      text += c;
+std::string EscapeControls(std::string_view text) {
+  std::string escaped;
+  for (size_t i = 0; i < text.size(); ++i) {
+    const size_t bytes = ControlBytes(text.substr(i));
+    if (bytes == 0) {
+      escaped += text[i];
+      continue;
     }
+    i += bytes - 1;  // The last byte is the character's number in UTF-8, too.
+    escaped += absl::StrFormat("\\u%04x", static_cast<unsigned char>(text[i]));
   }
-  return text + "\"";
+  return escaped;
+}
+
+std::string NameText(std::string_view name) {
+  return absl::StrCat("\"", EscapeControls(name), "\"");
 }
 
 bool IsPrintable(std::string_view text) {
-  return std::none_of(text.begin(), text.end(), IsControl);
+  for (size_t i = 0; i < text.size(); ++i) {
+    if (ControlBytes(text.substr(i)) > 0) return false;
+  }
+  return true;
 }
 
 absl::Status FieldError(std::string_view pointer, std::string_view expectation,

@@ -31,10 +31,14 @@ inline constexpr double kLeastMass = 1e-90;
 // Zero, or kLeastMass at least.
 absl::Status CheckMass(std::string_view pointer, double mass);
 
-// In quotation marks, with control characters as \u0007: for messages.
+// With control characters as \u0007: for messages.
+std::string EscapeControls(std::string_view text);
+
+// The same in quotation marks.
 std::string NameText(std::string_view name);
 
-// Whether `text` has no control characters (below U+0020, and U+007F).
+// Whether `text`, in UTF-8, has no control characters (below U+0020, and from
+// U+007F to U+009F).
 bool IsPrintable(std::string_view text);
 
 // Shortest text that reads back as the same number; "nan", "inf".
