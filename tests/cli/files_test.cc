@@ -88,6 +88,23 @@ TEST_F(FilesTest, ARefusedRunLeavesNoFolder) {
                 "new/deep//history.csv: cannot be continued: No such file");
 }
 
+// Its summary beside an empty history would be taken for that of this run.
+TEST_F(FilesTest, AHistoryThatCannotBeBegunLeavesNoSummaryOfAnEarlierRun) {
+  Run("run box.json --output o --quiet");
+  const ProgramResult result =
+      Shell("(ulimit -f 0; \"$EMMY\" run box.json --output o --quiet)");
+  EXPECT_EQ(result.exit_status, 1);
+  EXPECT_EQ(Shell("ls o").out, "history.csv\n");
+  EXPECT_EQ(Read("o/history.csv"), "");
+}
+
+TEST_F(FilesTest, AHistoryThatCannotBeOpenedLeavesEverythingAsItWas) {
+  Run("run box.json --output o --quiet");
+  Shell("mv o/history.csv o/kept; mkdir o/history.csv");
+  ExpectRefused("run box.json --output o",
+                "o/history.csv: cannot be opened: Is a directory");
+}
+
 TEST_F(FilesTest, AnEmptyNameIsNotLeftOut) {
   for (const char* arguments :
        {"run '' ", "check '' ", "run box.json --output ''",

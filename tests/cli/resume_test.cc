@@ -284,12 +284,17 @@ TEST_F(ResumeTest, AFullFileSystemLeavesWhatItTakesToGoOn) {
 TEST_F(ResumeTest, ADeviceThatIsFullFailsClearly) {
   if (!std::filesystem::exists("/dev/full")) GTEST_SKIP() << "no /dev/full";
   const ProgramResult result = Shell(
-      "mkdir out; ln -s /dev/full out/history.csv; \"$EMMY\" run "
-      "tangle.json --output out --checkpoint c");
+      "mkdir out; ln -s /dev/full out/history.csv; echo {} >out/summary.json; "
+      "\"$EMMY\" run tangle.json --output out --quiet --checkpoint c");
   EXPECT_EQ(result.exit_status, 1);
-  EXPECT_EQ(result.err,
-            "out/history.csv: cannot be written: No space left on device\n");
+  const std::string message =
+      "out/history.csv: cannot be written: No space left on device";
+  EXPECT_EQ(result.err, "tangle.json: " + message + "\n");
   EXPECT_THAT(Files(), ElementsAre("out", "tangle.json"));
+  const json summary = json::parse(Read("out/summary.json"));
+  EXPECT_EQ(summary.value("status", ""), "failed");
+  EXPECT_EQ(summary.value("message", ""), message);
+  EXPECT_EQ(summary.value("steps", -1), 0);
 }
 
 // A checkpoint of step 50, and what is said of attempts to go on from it.

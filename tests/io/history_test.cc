@@ -79,6 +79,17 @@ TEST_F(HistoryTest, HasTheColumnsOfTheFormatInTheirOrder) {
                   "box.omega_polar_exact_z"));
 }
 
+TEST_F(HistoryTest, OnlyBeginReplacesWhatIsInTheFile) {
+  const BuiltModel built = TwoBodies();
+  ASSERT_TRUE(WriteTextFile(path_, "before\n").ok());
+  absl::StatusOr<HistoryWriter> writer =
+      HistoryWriter::Open(path_, built.model);
+  ASSERT_TRUE(writer.ok()) << writer.status();
+  EXPECT_THAT(Lines(), ElementsAre("before"));
+  EXPECT_TRUE(writer->Begin().ok());
+  EXPECT_THAT(Lines(), ElementsAre(::testing::StartsWith("step,time,")));
+}
+
 TEST_F(HistoryTest, HasNodesTrussesAndSpringsAfterTheBodies) {
   ModelDescription description;
   description.nodes = {{.name = "ball", .mass = 1.0}};

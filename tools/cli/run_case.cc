@@ -29,6 +29,13 @@ class Recorder {
         history_(history),
         last_step_(last_step) {}
 
+  // The header and the row of the start, for a history that is open.
+  void Begin(const State& state) {
+    if (history_ == nullptr) return;
+    status_ = history_->Begin();
+    Record(state, 0);
+  }
+
   // `monitor` must have observed `state`.
   void Record(const State& state, int iterations) {
     if (history_ == nullptr || !status_.ok() || state.step == last_step_) {
@@ -134,7 +141,7 @@ RunResult RunCase(const RunOptions& options,
     return recorder.status().ok() && checkpointer.status().ok();
   };
   if (options.resume == nullptr) {
-    recorder.Record(state, 0);
+    recorder.Begin(state);
     if (files_ok()) checkpointer.Write(state.step);
   }
   Progress progress(state.step, last_step, options.quiet);

@@ -29,11 +29,12 @@ struct RunResult {
   bool can_be_resumed = false;
 };
 
-// Advances `loaded.state`. The history, if any, gets the start, every
-// output step and the last step reached. Ends early if a step fails, if the
-// history or a checkpoint cannot be written or if IsInterrupted(); the summary
-// tells. Checkpoints are written at the start, when they are due, and at the
-// end; each after the rows before it are on the disk.
+// Advances `loaded.state`. The history, if any, is open, and gets its header
+// (unless it is one to go on with), the start, every output step and the last
+// step reached. Ends early if a step fails, if the history or a checkpoint
+// cannot be written or if IsInterrupted(); the summary tells. Checkpoints are
+// written at the start, when they are due, and at the end; each after the rows
+// before it are on the disk.
 RunResult RunCase(const RunOptions& options,
                   EnergyMomentumIntegrator& integrator, LoadedCase& loaded,
                   HistoryWriter* history);

@@ -92,16 +92,16 @@ absl::StatusOr<Checkpoint> LoadCheckpoint(
   return checkpoint;
 }
 
-// Begins the history in the folder, or goes on with it. A summary of an earlier
-// run does not belong to it.
-absl::StatusOr<HistoryWriter> BeginOutput(const RunFiles& files,
-                                          const Model& model,
-                                          const Checkpoint* resume) {
+// Opens the history in the folder, or goes on with it. A summary of an earlier
+// run does not belong to it, and goes before the history is emptied.
+absl::StatusOr<HistoryWriter> OpenOutput(const RunFiles& files,
+                                         const Model& model,
+                                         const Checkpoint* resume) {
   const absl::Status replaceable = CheckReplaceable(files.summary());
   if (!replaceable.ok()) return replaceable;
   const std::string path = files.history();
   absl::StatusOr<HistoryWriter> history =
-      resume == nullptr ? HistoryWriter::Create(path, model)
+      resume == nullptr ? HistoryWriter::Open(path, model)
                         : HistoryWriter::Resume(path, model, *resume->history);
   if (!history.ok()) return history.status();
   RemoveTextFile(files.summary());
@@ -247,10 +247,10 @@ ExitStatus Run(const RunArguments& arguments) {
   if (!usable.ok()) return PrintError(usable, kExitBadInput);
   std::optional<HistoryWriter> history;
   if (!files.output.empty()) {
-    absl::StatusOr<HistoryWriter> begun = BeginOutput(
+    absl::StatusOr<HistoryWriter> opened = OpenOutput(
         files, loaded->model, resume.has_value() ? &*resume : nullptr);
-    if (!begun.ok()) return RefuseOrFail(begun.status());
-    history = *std::move(begun);
+    if (!opened.ok()) return RefuseOrFail(opened.status());
+    history = *std::move(opened);
   }
   folder.Keep();
   const RunResult result =

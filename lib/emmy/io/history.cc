@@ -1,5 +1,6 @@
 #include "emmy/io/history.h"
 
+#include <fcntl.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -141,18 +142,35 @@ HistoryWriter::HistoryWriter(std::string path, std::FILE* file,
 
 absl::StatusOr<HistoryWriter> HistoryWriter::Create(const std::string& path,
                                                     const Model& model) {
-  std::FILE* file = std::fopen(path.c_str(), "wb");
-  if (file == nullptr) {
-    return absl::FailedPreconditionError(
-        absl::StrCat(path, ": cannot be opened: ", std::strerror(errno)));
-  }
-  HistoryWriter writer(path, file, HistoryColumns(model));
-  absl::Status status = writer.WriteLine(absl::StrJoin(
-      writer.columns_, ",", [](std::string* out, const std::string& name) {
-        absl::StrAppend(out, CsvField(name));
-      }));
+  absl::StatusOr<HistoryWriter> writer = Open(path, model);
+  if (!writer.ok()) return writer;
+  absl::Status status = writer->Begin();
   if (!status.ok()) return status;
   return writer;
+}
+
+absl::StatusOr<HistoryWriter> HistoryWriter::Open(const std::string& path,
+                                                  const Model& model) {
+  // No mode of fopen makes a file but leaves what is in it, to be replaced.
+  const int descriptor =
+      open(path.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0666);
+  std::FILE* file = descriptor < 0 ? nullptr : fdopen(descriptor, "wb");
+  if (file != nullptr) return HistoryWriter(path, file, HistoryColumns(model));
+  const int error = errno;
+  if (descriptor >= 0) close(descriptor);
+  return absl::FailedPreconditionError(
+      absl::StrCat(path, ": cannot be opened: ", std::strerror(error)));
+}
+
+absl::Status HistoryWriter::Begin() {
+  // Devices and pipes have nothing to be emptied of.
+  if (ftruncate(fileno(file_.get()), 0) != 0 && errno != EINVAL) {
+    return CannotWrite(path_, errno);
+  }
+  return WriteLine(absl::StrJoin(columns_, ",",
+                                 [](std::string* out, const std::string& name) {
+                                   absl::StrAppend(out, CsvField(name));
+                                 }));
 }
 
 absl::StatusOr<HistoryWriter> HistoryWriter::Resume(

@@ -54,6 +54,13 @@ class EMMY_EXPORT HistoryWriter {
   static absl::StatusOr<HistoryWriter> Create(const std::string& path,
                                               const Model& model);
 
+  // The two parts of Create: Open makes the file or leaves what is in it, and
+  // fails with kFailedPrecondition; then Begin replaces that by the header row,
+  // and fails with kDataLoss: call nothing else then.
+  static absl::StatusOr<HistoryWriter> Open(const std::string& path,
+                                            const Model& model);
+  absl::Status Begin();
+
   // Opens the file to go on at `position`, and cuts off what is beyond it.
   // Fails with kFailedPrecondition if the file does not begin with what the
   // position belongs to.
