@@ -232,6 +232,20 @@ TEST_F(ResumeTest, AFullDiskLeavesWhatItTakesToGoOn) {
   EXPECT_EQ(Summary("out"), Summary("whole"));
 }
 
+TEST_F(ResumeTest, ACaseWhoseNameLooksLikeAnOptionCanBeGoneOnWith) {
+  Shell("mv tangle.json ./-t.json");
+  const ProgramResult result = Shell(
+      "ulimit -f 128; \"$EMMY\" run --output out --quiet --steps 200 "
+      "--set /output/every=1 --checkpoint-every 5 --checkpoint c -- -t.json");
+  EXPECT_EQ(result.exit_status, 1);
+  const size_t command = result.err.find("emmy run ./-t.json --output out");
+  ASSERT_NE(command, std::string::npos) << result.err;
+  const ProgramResult resumed = Shell(absl::StrReplaceAll(
+      result.err.substr(command), {{"emmy run", "\"$EMMY\" run"}}));
+  EXPECT_EQ(resumed.exit_status, 0) << resumed.err;
+  EXPECT_EQ(Summary("out")["steps"], 200);
+}
+
 TEST_F(ResumeTest, ADiskTooFullForACheckpointKeepsTheLastOne) {
   const std::string run =
       "\"$EMMY\" run tangle.json --quiet --checkpoint-every 5 ";

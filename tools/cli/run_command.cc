@@ -123,7 +123,9 @@ std::string Quoted(const std::string& word) {
 
 // The command that goes on with this run.
 std::string ResumeCommand(const RunArguments& arguments) {
-  std::string command = "emmy run " + Quoted(arguments.case_path);
+  const std::string& path = arguments.case_path;
+  const char* folder = path.starts_with('-') ? "./" : "";  // Not an option.
+  std::string command = "emmy run " + Quoted(absl::StrCat(folder, path));
   const auto add = [&command](const char* option, const std::string& value) {
     if (value.empty()) return;
     absl::StrAppend(&command, " ", option, " ", Quoted(value));
