@@ -108,6 +108,9 @@ int main(int argc, char** argv) {
   if (!emmy::ReserveStreams()) return emmy::kExitFailed;
   // A file that may not grow further (`ulimit -f`) is one on a full disk.
   static_cast<void>(std::signal(SIGXFSZ, SIG_IGN));
+  // A pipe whose reader is gone is a file that cannot be written. Not SIG_IGN,
+  // which programs started from here, such as gnuplot, would inherit.
+  static_cast<void>(std::signal(SIGPIPE, [](int /*signal*/) {}));
   try {
     return emmy::Finish(emmy::Main(argc, argv));
   } catch (const std::exception& error) {  // Such as: out of memory.

@@ -197,5 +197,32 @@ TEST_F(FilesTest, AClosedStandardOutputIsAnErrorWhereSomethingIsPrinted) {
             0);
 }
 
+// The end by a signal that it would be otherwise says nothing.
+TEST_F(FilesTest, AReaderThatIsGoneIsAnErrorWhereSomethingIsPrinted) {
+  for (const char* arguments :
+       {"run box.json", "generate chain --size 2", "verify --list", "--help",
+        "run --help", "--version"}) {
+    SCOPED_TRACE(arguments);
+    const ProgramResult result = Shell(absl::StrCat(
+        "rm -f gone\n{ until [ -e gone ]; do sleep 0.02; done\n"
+        "\"$EMMY\" ",
+        arguments, "; echo $? >status; } | { exec <&-; touch gone; }"));
+    EXPECT_EQ(Read("status"), "1\n");
+    EXPECT_EQ(result.err,
+              "emmy: standard output could not be written; what was printed is "
+              "lost\n");
+  }
+}
+
+TEST_F(FilesTest, AReaderOfTheHistoryThatGoesAwayEndsTheRun) {
+  const ProgramResult result = Shell(
+      "mkdir o; mkfifo o/history.csv; head -n 1 o/history.csv >first &\n"
+      "\"$EMMY\" run box.json --output o --quiet --steps 1000000");
+  EXPECT_EQ(result.exit_status, 1);
+  EXPECT_EQ(result.err,
+            "box.json: o/history.csv: cannot be written: Broken pipe\n");
+  EXPECT_THAT(Read("o/summary.json"), HasSubstr("\"status\": \"failed\""));
+}
+
 }  // namespace
 }  // namespace emmy

@@ -4,8 +4,10 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <csignal>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <string>
 
 #include "tests/cli/program.h"
 #include "tests/support/schema_checker.h"
@@ -107,6 +109,19 @@ TEST_F(VerifyTest, ClaimThatFailsIsSaidEverywhereAndIsTheExitStatus) {
                     HasSubstr("<data value=\"2.9999999999999997e-08\"")));
   EXPECT_THAT(Read("out/junit.xml"),
               AllOf(HasSubstr("failures=\"1\""), HasSubstr(command)));
+}
+
+// Or it would write on into a pipe that nobody reads.
+TEST_F(VerifyTest, GnuplotIsStartedWithSigpipeAsUsual) {
+  Write("gnuplot", "#!/bin/sh\ngrep SigIgn: /proc/$$/status >\"$SEEN\"\n");
+  Shell(
+      "chmod +x gnuplot; SEEN=\"$PWD/seen\" PATH=\"$PWD:$PATH\" \"$EMMY\" "
+      "verify --only figures/paper_6 --output out");
+  const std::string seen = Read("seen");
+  ASSERT_GT(seen.size(), std::string("SigIgn:").size());
+  const auto ignored =
+      std::stoull(seen.substr(std::string("SigIgn:").size()), nullptr, 16);
+  EXPECT_EQ(ignored >> (SIGPIPE - 1) & 1U, 0u) << seen;
 }
 
 TEST_F(VerifyTest, WithoutGnuplotThereIsAPageAllTheSame) {
