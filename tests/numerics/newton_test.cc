@@ -61,6 +61,16 @@ TEST(StagnationMonitorTest, RoundingAboveItsEstimateEndsWhereItGrows) {
   EXPECT_TRUE(monitor.Update(6e-15, kFloor));
 }
 
+// A floor of known terms, which rounding exceeds a few times.
+TEST(StagnationMonitorTest, OfALawItIsJudgedNearerToTheFloor) {
+  StagnationMonitor monitor = StagnationMonitor::OfLaw();
+  for (const double work : {2e-14, 3e-14, 3e-14, 7e-15}) {
+    EXPECT_FALSE(monitor.Update(work, kFloor)) << work;
+  }
+  EXPECT_FALSE(monitor.Update(5e-15, kFloor));
+  EXPECT_TRUE(monitor.Update(6e-15, kFloor));
+}
+
 // The next would be 1e-21: lost in a floor of 1e-16.
 TEST(StagnationMonitorTest, ACorrectionThatLeavesLessThanRoundingIsTheLast) {
   StagnationMonitor monitor;

@@ -248,14 +248,21 @@ bool CoupledStep::SolveCorrection(bool exact) {
       residual_, constraint_rate_, &correction_, &impulse_correction_);
 }
 
+// What the energy may change by: the residual's work (EM-7), and that of the
+// joint forces where the points they join do not yet move alike.
+double CoupledStep::ResidualWork() const {
+  return std::abs(mean_rate_.cwiseProduct(residual_).sum()) +
+         std::abs(impulse_.cwiseProduct(constraint_rate_).sum());
+}
+
 BodyStepResult CoupledStep::Iterate(bool exact) {
   BodyStepResult result;
   // What the laws forbid to remain is judged apart from the corrections: the
   // net force, the net moment and the work of the residual (EM-7).
   StagnationMonitor rate_monitor(kNegligibleRest, /*explains_rounding=*/true);
-  StagnationMonitor force_monitor;
-  StagnationMonitor moment_monitor;
-  StagnationMonitor work_monitor;
+  StagnationMonitor force_monitor = StagnationMonitor::OfLaw();
+  StagnationMonitor moment_monitor = StagnationMonitor::OfLaw();
+  StagnationMonitor work_monitor = StagnationMonitor::OfLaw();
   double previous = std::numeric_limits<double>::infinity();
   int slow = 0;
   int settled = 0;
@@ -289,7 +296,7 @@ BodyStepResult CoupledStep::Iterate(bool exact) {
       }
       moment += mean_.col(v).cross(residual_.col(v));
     }
-    const double work = std::abs(mean_rate_.cwiseProduct(residual_).sum());
+    const double work = ResidualWork();
     const Floors floors = RoundingFloors();
 
     if (!SolveCorrection(exact)) {
@@ -420,8 +427,7 @@ bool CoupledStep::KeepsEnergy() const {
       (structure_->gravity_force.cwiseAbs().cwiseProduct(dq_.cwiseAbs()))
           .sum() +
       std::abs(LoadWork());
-  const double work = std::abs(mean_rate_.cwiseProduct(residual_).sum());
-  return work <= kLargestShare * (energy + load_work);
+  return ResidualWork() <= kLargestShare * (energy + load_work);
 }
 
 BodyStepResult CoupledStep::IterateAndCheck(bool exact) {

@@ -88,6 +88,7 @@ class CoupledStep {
   bool SolveCorrection(bool exact);
   BodyStepResult Iterate(bool exact);
   BodyStepResult IterateAndCheck(bool exact);
+  double ResidualWork() const;
   bool KeepsEnergy() const;
   double LoadWork() const;
   void GuessRigidTurn();

@@ -86,9 +86,9 @@ BodyStepResult JointStep::Iterate() {
   BodyStepResult result;
   // As in CoupledStep, whose rule this is.
   StagnationMonitor rate_monitor;
-  StagnationMonitor force_monitor;
-  StagnationMonitor moment_monitor;
-  StagnationMonitor work_monitor;
+  StagnationMonitor force_monitor = StagnationMonitor::OfLaw();
+  StagnationMonitor moment_monitor = StagnationMonitor::OfLaw();
+  StagnationMonitor work_monitor = StagnationMonitor::OfLaw();
   double previous = std::numeric_limits<double>::infinity();
   int slow = 0;
   int settled = 0;

@@ -298,9 +298,9 @@ BodyStepResult SolveLined(const Constants& constants,
 
   BodyStepResult result;
   StagnationMonitor rate_monitor(kNegligibleRest, /*explains_rounding=*/true);
-  StagnationMonitor force_monitor;
-  StagnationMonitor moment_monitor;
-  StagnationMonitor work_monitor;
+  StagnationMonitor force_monitor = StagnationMonitor::OfLaw();
+  StagnationMonitor moment_monitor = StagnationMonitor::OfLaw();
+  StagnationMonitor work_monitor = StagnationMonitor::OfLaw();
   LineTangent tangent;
   Vectors half_dw = half_step * LoadVectors(body.next);
   Vectors node_half_dw = half_step * At(nodes.acceleration);

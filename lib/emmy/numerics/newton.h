@@ -47,6 +47,13 @@ struct [[nodiscard]] StepReport {
 // any other it may be slow, and is not accepted.
 inline constexpr int kStagnationPatience = 20;
 
+// Within how many floors a sequence may be judged to have stopped shrinking.
+// The floor of a correction does not see how ill a system is conditioned; that
+// of a net force, a moment or work is a sum of known terms, which rounding
+// exceeds a few times at most.
+inline constexpr double kNearFloor = 1e3;
+inline constexpr double kNearLawFloor = 64.0;
+
 // How much of a floor may be left with the same sign in every step: that adds
 // up like the number of steps, rounding like its root, so that it stays below
 // for a million.
@@ -78,13 +85,21 @@ inline constexpr double kLargestShare = 1e-8;
 class StagnationMonitor {
  public:
   explicit StagnationMonitor(double negligible = kNegligibleRest,
-                             bool explains_rounding = false)
-      : negligible_(negligible), explains_rounding_(explains_rounding) {}
+                             bool explains_rounding = false,
+                             double near_floor = kNearFloor)
+      : negligible_(negligible),
+        explains_rounding_(explains_rounding),
+        near_floor_(near_floor) {}
+
+  // Of what a law forbids to remain.
+  static StagnationMonitor OfLaw() {
+    return StagnationMonitor(kNegligibleRest, /*explains_rounding=*/false,
+                             kNearLawFloor);
+  }
 
   // True once the sequence has stopped shrinking near `floor`, and from then
   // on, so that several sequences may stagnate at different iterations.
   bool Update(double correction, double floor) {
-    constexpr double kNear = 1e3;      // Where "stops shrinking" may be judged.
     constexpr double kRounding = 4.0;  // Where a member is rounding.
     constexpr double kRatio = 0.5;     // Less than one bit gained.
     const double ratio = correction / previous_;
@@ -92,7 +107,8 @@ class StagnationMonitor {
     // Above rounding it has to grow: where a sequence shrinks slowly, far more
     // is left than its last member.
     const double shrinks = correction <= kRounding * floor ? kRatio : 1.0;
-    const bool stopped = correction <= kNear * floor && !(ratio < shrinks);
+    const bool stopped =
+        correction <= near_floor_ * floor && !(ratio < shrinks);
     const bool vanishes =
         rate < kRatio && correction * rate <= negligible_ * floor;
     const bool vanished = explains_rounding_ &&
@@ -115,6 +131,7 @@ class StagnationMonitor {
  private:
   double negligible_;
   bool explains_rounding_;
+  double near_floor_;
   bool stagnant_ = false;
   double previous_ = std::numeric_limits<double>::infinity();
   double previous_ratio_ = std::numeric_limits<double>::infinity();
