@@ -11,10 +11,11 @@
 
 namespace emmy {
 
+// What the last bits of a result may depend on.
 struct BuildInfo {
-  std::string version;   // "0.1.0"
-  std::string compiler;  // "GNU 12.2.0"
-  std::string flags;     // "-O2 -DNDEBUG -ffp-contract=off"
+  std::string version;   // Such as 0.1.0.
+  std::string compiler;  // Such as GNU 12.2.0.
+  std::string flags;     // Such as -O2 -DNDEBUG -ffp-contract=off.
 };
 
 // Of the library that the program is linked to.

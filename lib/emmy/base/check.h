@@ -9,14 +9,11 @@
 #include <sstream>
 #include <string>
 
-#include "emmy/base/export.h"
-
 namespace emmy {
 
 // Writes file, line, the condition and `values` to standard error; aborts.
-[[noreturn]] EMMY_EXPORT void FailCheck(const char* file, int line,
-                                        const char* condition,
-                                        const std::string& values);
+[[noreturn]] void FailCheck(const char* file, int line, const char* condition,
+                            const std::string& values);
 
 }  // namespace emmy
 

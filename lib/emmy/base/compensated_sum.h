@@ -22,8 +22,8 @@ namespace emmy {
 
 // The rounded sum of two numbers and its exact rounding error.
 struct SumAndError {
-  double sum;
-  double error;
+  double sum;    // fl(a + b)
+  double error;  // a + b − sum, itself a double.
 };
 
 // (SUM-1); exact for any order of magnitude of a and b.
@@ -55,17 +55,19 @@ inline void AddCompensated(double increment, double low_part, double& value,
 
 // A number advanced by compensated summation.
 struct CompensatedDouble {
-  double value = 0.0;
-  double compensation = 0.0;
+  double value = 0.0;         // The nearest double.
+  double compensation = 0.0;  // What `value` could not hold.
 
+  // (SUM-2)
   void Add(double increment) { AddCompensated(increment, value, compensation); }
 };
 
 // A vector advanced by compensated summation.
 struct CompensatedVector {
-  VectorXd value;
-  VectorXd compensation;
+  VectorXd value;         // The nearest doubles.
+  VectorXd compensation;  // What `value` could not hold, of its size.
 
+  // Zero, of `size` entries.
   void SetZero(Eigen::Index size) {
     value.setZero(size);
     compensation.setZero(size);

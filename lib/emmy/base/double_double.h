@@ -40,13 +40,16 @@ inline SumAndError TwoProduct(double a, double b) {
   return {product, error};
 }
 
+// x = hi + lo.
 struct DoubleDouble {
-  double hi = 0.0;
-  double lo = 0.0;
+  double hi = 0.0;  // The nearest double.
+  double lo = 0.0;  // The rest.
 
   constexpr DoubleDouble() = default;
   constexpr DoubleDouble(double value) : hi(value) {}  // NOLINT: a number.
+  // A pair that is normalised already.
   constexpr DoubleDouble(double high, double low) : hi(high), lo(low) {}
+  // The exact result of TwoSum or TwoProduct.
   explicit DoubleDouble(const SumAndError& s) : hi(s.sum), lo(s.error) {}
 
   // The nearest double, since |lo| is at most half a unit of hi.
@@ -59,8 +62,10 @@ inline DoubleDouble FastNormalize(double x, double y) {
   return {sum, y - (sum - x)};
 }
 
+// −x, exactly.
 inline DoubleDouble operator-(const DoubleDouble& x) { return {-x.hi, -x.lo}; }
 
+// x + y to 3 u² relative, also where the high parts cancel; u = 2^(-53).
 inline DoubleDouble operator+(const DoubleDouble& x, const DoubleDouble& y) {
   const SumAndError high = TwoSum(x.hi, y.hi);
   const SumAndError low = TwoSum(x.lo, y.lo);
@@ -68,16 +73,19 @@ inline DoubleDouble operator+(const DoubleDouble& x, const DoubleDouble& y) {
   return FastNormalize(first.hi, first.lo + low.error);
 }
 
+// x − y, as the sum.
 inline DoubleDouble operator-(const DoubleDouble& x, const DoubleDouble& y) {
   return x + (-y);
 }
 
+// x y to a few u² relative.
 inline DoubleDouble operator*(const DoubleDouble& x, const DoubleDouble& y) {
   const SumAndError product = TwoProduct(x.hi, y.hi);
   return FastNormalize(product.sum,
                        product.error + (x.hi * y.lo + x.lo * y.hi));
 }
 
+// x / y to a few u² relative; y ≠ 0.
 inline DoubleDouble operator/(const DoubleDouble& x, const DoubleDouble& y) {
   const double first = x.hi / y.hi;
   const DoubleDouble remainder = x - y * DoubleDouble(first);
@@ -86,10 +94,12 @@ inline DoubleDouble operator/(const DoubleDouble& x, const DoubleDouble& y) {
   return FastNormalize(first, second) + DoubleDouble(rest.hi / y.hi);
 }
 
+// x = x + y.
 inline DoubleDouble& operator+=(DoubleDouble& x, const DoubleDouble& y) {
   return x = x + y;
 }
 
+// x = x − y.
 inline DoubleDouble& operator-=(DoubleDouble& x, const DoubleDouble& y) {
   return x = x - y;
 }
@@ -104,50 +114,62 @@ inline DoubleDouble Sqrt(const DoubleDouble& x) {
 
 // A vector of three extended numbers.
 struct DoubleDouble3 {
-  std::array<DoubleDouble, 3> entries;
+  std::array<DoubleDouble, 3> entries;  // x, y, z.
 
+  // Entry i = 0, 1, 2; not checked.
   DoubleDouble& operator[](int i) { return entries[static_cast<size_t>(i)]; }
+  // The same of a constant.
   const DoubleDouble& operator[](int i) const {
     return entries[static_cast<size_t>(i)];
   }
 
+  // `v` exactly.
   static DoubleDouble3 FromDouble(const Vector3d& v) {
     return {{DoubleDouble(v(0)), DoubleDouble(v(1)), DoubleDouble(v(2))}};
   }
 
+  // The nearest doubles.
   Vector3d ToDouble() const {
     return {entries[0].hi, entries[1].hi, entries[2].hi};
   }
+  // What ToDouble leaves out.
   Vector3d LowPart() const {
     return {entries[0].lo, entries[1].lo, entries[2].lo};
   }
 };
 
+// a + b, entry by entry.
 inline DoubleDouble3 operator+(const DoubleDouble3& a, const DoubleDouble3& b) {
   return {{a[0] + b[0], a[1] + b[1], a[2] + b[2]}};
 }
 
+// a − b, entry by entry.
 inline DoubleDouble3 operator-(const DoubleDouble3& a, const DoubleDouble3& b) {
   return {{a[0] - b[0], a[1] - b[1], a[2] - b[2]}};
 }
 
+// s a, entry by entry.
 inline DoubleDouble3 operator*(const DoubleDouble& s, const DoubleDouble3& a) {
   return {{s * a[0], s * a[1], s * a[2]}};
 }
 
+// a = a + b.
 inline DoubleDouble3& operator+=(DoubleDouble3& a, const DoubleDouble3& b) {
   return a = a + b;
 }
 
+// a · b; its error is relative to |a| |b|.
 inline DoubleDouble Dot(const DoubleDouble3& a, const DoubleDouble3& b) {
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
+// a × b; its error is relative to |a| |b|.
 inline DoubleDouble3 Cross(const DoubleDouble3& a, const DoubleDouble3& b) {
   return {{a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2],
            a[0] * b[1] - a[1] * b[0]}};
 }
 
+// |a| = √(a · a).
 inline DoubleDouble Norm(const DoubleDouble3& a) { return Sqrt(Dot(a, a)); }
 
 }  // namespace emmy

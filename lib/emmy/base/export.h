@@ -8,6 +8,7 @@
 #ifndef EMMY_BASE_EXPORT_H_
 #define EMMY_BASE_EXPORT_H_
 
+// Before the name of a class, or before the type of a function.
 #define EMMY_EXPORT __attribute__((visibility("default")))
 
 #endif  // EMMY_BASE_EXPORT_H_

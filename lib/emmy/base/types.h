@@ -14,12 +14,15 @@
 // How the library was built; other values come with its package for CMake and
 // with emmy.pc.
 #ifndef EMMY_EIGEN_ALIGN_BYTES
+// Alignment of memory that Eigen takes [bytes].
 #define EMMY_EIGEN_ALIGN_BYTES 16
 #endif
 #ifndef EMMY_EIGEN_STATIC_ALIGN_BYTES
+// Alignment of vectors of a fixed size [bytes].
 #define EMMY_EIGEN_STATIC_ALIGN_BYTES 16
 #endif
 #ifndef EMMY_EIGEN_PLAIN_MALLOC
+// 1: Eigen takes memory by malloc, whose alignment is enough.
 #define EMMY_EIGEN_PLAIN_MALLOC 1
 #endif
 
@@ -38,15 +41,16 @@ static_assert(
     "due to -fsanitize=address, add -DEIGEN_MALLOC_ALREADY_ALIGNED=1, or build "
     "Emmy itself with the same flags.");
 
-using Vector3d = Eigen::Vector3d;
-using Vector4d = Eigen::Vector4d;
-using Vector6d = Eigen::Matrix<double, 6, 1>;
-using Vector9d = Eigen::Matrix<double, 9, 1>;
-using VectorXd = Eigen::VectorXd;
+using Vector3d = Eigen::Vector3d;              // A vector of space.
+using Vector4d = Eigen::Vector4d;              // A quaternion (w, x, y, z).
+using Vector6d = Eigen::Matrix<double, 6, 1>;  // Strains (ANCF-4).
+using Vector9d = Eigen::Matrix<double, 9, 1>;  // e₁, e₂, e₃ in a column.
+using VectorXd = Eigen::VectorXd;              // Of any size.
+// Vectors of space side by side.
 using Matrix3Xd = Eigen::Matrix<double, 3, Eigen::Dynamic>;
-using Matrix3d = Eigen::Matrix3d;
-using Matrix9d = Eigen::Matrix<double, 9, 9>;
-using MatrixXd = Eigen::MatrixXd;
+using Matrix3d = Eigen::Matrix3d;              // Such as e₁, e₂, e₃.
+using Matrix9d = Eigen::Matrix<double, 9, 9>;  // Acts on a Vector9d.
+using MatrixXd = Eigen::MatrixXd;              // Of any size.
 
 }  // namespace emmy
 

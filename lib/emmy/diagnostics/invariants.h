@@ -22,13 +22,13 @@
 namespace emmy {
 
 struct Invariants {
-  DoubleDouble kinetic_energy;  // [J]
-  DoubleDouble penalty_energy;
-  DoubleDouble elastic_energy;
-  DoubleDouble gravity_energy;  // −Σ M g·x̄, zero at the inertial origin.
-  DoubleDouble load_work;       // Of the loads since the start.
-  DoubleDouble3 momentum;       // [kg m/s]
-  DoubleDouble3 angular_momentum;  // [kg m²/s]
+  DoubleDouble kinetic_energy;     // T, nodes and trusses included [J].
+  DoubleDouble penalty_energy;     // U of the ANCF bodies [J].
+  DoubleDouble elastic_energy;     // W of trusses, cables and springs [J].
+  DoubleDouble gravity_energy;     // −Σ M g·x̄ [J], zero at the origin.
+  DoubleDouble load_work;          // Of the loads since the start [J].
+  DoubleDouble3 momentum;          // P [kg m/s]
+  DoubleDouble3 angular_momentum;  // L [kg m²/s]
 
   // Kinetic + penalty + elastic energy: the scale of energy errors.
   DoubleDouble InternalEnergy() const {

@@ -31,14 +31,15 @@ namespace emmy {
 
 class EMMY_EXPORT AncfRigidBody {
  public:
-  static constexpr int kNumStrains = 6;
-  static constexpr int kNumCoordinates = 12;
+  static constexpr int kNumStrains = 6;       // (ANCF-4)
+  static constexpr int kNumCoordinates = 12;  // x̄, e₁, e₂, e₃.
 
   // The vectors whose product is shear strain 3 + k, by index from 0.
   struct VectorPair {
-    int m;
-    int n;
+    int m;  // Of the first,
+    int n;  // and of the second.
   };
+  // Of ε₄, ε₅, ε₆.
   static constexpr std::array<VectorPair, 3> kShearPairs = {
       {{0, 1}, {1, 2}, {2, 0}}};
 
@@ -47,10 +48,13 @@ class EMMY_EXPORT AncfRigidBody {
   static absl::StatusOr<AncfRigidBody> Create(const RigidBodyInertia& inertia,
                                               const Vector6d& penalty);
 
+  // All of mass, volume, second moments and tensor.
   const RigidBodyInertia& inertia() const { return inertia_; }
-  double mass() const { return inertia_.mass; }
+  double mass() const { return inertia_.mass; }  // M [kg]
+  // Mⁱʲ [kg m²], body axes.
   const Matrix3d& second_moment() const { return inertia_.second_moment; }
-  const Vector6d& penalty_stiffness() const { return stiffness_; }  // b [J]
+  // bₖ of (ANCF-5) [J].
+  const Vector6d& penalty_stiffness() const { return stiffness_; }
 
   // (ANCF-4). Cancels near a rotation: absolute error of a few u. A step
   // advances strains by StrainIncrement and never calls this.

@@ -25,11 +25,14 @@ class ConventionalRigidBody {
   static constexpr int kNumPositions = 7;   // x̄, quaternion (w, x, y, z).
   static constexpr int kNumVelocities = 6;  // x̄̇ inertial, W in body axes.
 
+  // `inertia` as made by RigidBodyInertia::Box or FromTensor; not checked.
   explicit ConventionalRigidBody(const RigidBodyInertia& inertia)
       : inertia_(inertia) {}
 
+  // All of mass, volume, second moments and tensor.
   const RigidBodyInertia& inertia() const { return inertia_; }
-  double mass() const { return inertia_.mass; }
+  double mass() const { return inertia_.mass; }  // M [kg]
+  // J [kg m²], body axes.
   const Matrix3d& tensor() const { return inertia_.tensor; }
 
  private:

@@ -32,16 +32,24 @@ namespace emmy {
 
 class EMMY_EXPORT LineElement {
  public:
-  enum class Kind { kTruss, kCable, kSpring };
+  // Which of the laws above.
+  enum class Kind {
+    kTruss,   // (LINE-3)
+    kCable,   // (LINE-4)
+    kSpring,  // (LINE-5)
+  };
 
-  // Arguments must be finite and positive; a spring's length may be zero.
+  // (LINE-3) from L [m] and EA [N], both finite and positive; not checked.
   static LineElement Truss(double natural_length, double axial_stiffness);
+  // (LINE-4) from the same.
   static LineElement Cable(double natural_length, double axial_stiffness);
+  // (LINE-5) from L [m], finite and not negative, and k [N/m], finite and
+  // positive; not checked.
   static LineElement Spring(double natural_length, double stiffness);
 
   // How a line answers to Δs.
   struct Response {
-    double increment;       // Δy
+    double increment;       // Δy: [-], or [m] of a spring.
     double tension_factor;  // t of (LINE-2) [N/m]
     double derivative;      // dt/dΔs [N/m³], for the tangent only.
   };
@@ -51,7 +59,10 @@ class EMMY_EXPORT LineElement {
     double inverse_square = 0.0;  // 1/L² [1/m²]
     double factor = 0.0;          // EA/L [N/m]
 
+    // Δε for Δs [m²].
     double Increment(double ds) const { return inverse_square * ds; }
+    // t [N/m] with the mean of ε₀ = value + compensation and ε₁ = ε₀ +
+    // increment.
     double TensionFactor(double value, double compensation,
                          double increment) const {
       return factor * (value + (compensation + 0.5 * increment));
@@ -80,8 +91,8 @@ class EMMY_EXPORT LineElement {
   // Tension [N], the force along d: EA ε l/L, zero for a slack cable; k y.
   double Tension(double value) const;
 
-  Kind kind() const { return kind_; }
-  double natural_length() const { return length_; }
+  Kind kind() const { return kind_; }                 // Truss, cable, spring.
+  double natural_length() const { return length_; }   // L [m]
   double stiffness() const { return stiffness_; }     // EA [N]; k [N/m].
   const TrussLaw& truss_law() const { return law_; }  // Not of springs.
 

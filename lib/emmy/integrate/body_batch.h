@@ -40,8 +40,8 @@ struct BodyBatchOptions {
 struct BatchFailure {
   std::string body;  // Name.
   int64_t step = 0;  // The one that failed, by the count of State::step.
-  Termination termination = Termination::kMaxIterations;
-  std::string message;
+  Termination termination = Termination::kMaxIterations;  // Why.
+  std::string message;  // The same in words, with what may help.
 };
 
 // What became of the steps of a batch.
@@ -49,6 +49,7 @@ struct [[nodiscard]] BatchReport {
   int64_t iterations = 0;              // Sum over bodies and steps.
   int64_t ordinary_steps = 0;          // Taken by the steps of one body.
   std::vector<BatchFailure> failures;  // In the order of the model's bodies.
+  // Whether every body took every step.
   bool ok() const { return failures.empty(); }
 };
 
@@ -59,7 +60,10 @@ class EMMY_EXPORT BodyBatch {
   // bodies.
   static absl::StatusOr<BodyBatch> Create(const Model& model,
                                           const BodyBatchOptions& options);
+  // Moves the bodies; the batch moved from may only be assigned to or
+  // destroyed.
   BodyBatch(BodyBatch&&) noexcept;
+  // The same.
   BodyBatch& operator=(BodyBatch&&) noexcept;
   ~BodyBatch();
 

@@ -37,9 +37,9 @@ struct KeptTangent {
   VectorXd matrix;      // Entries of A when it was factorised; none: not kept.
   Matrix3Xd positions;  // q̄ at that point.
   Matrix3d turn = Matrix3d::Identity();  // Of the whole since then.
-  // By JointStep: the fewest iterations of a step with it, and how many more
-  // than that the others have needed.
+  // By JointStep: the fewest iterations of a step with it.
   int64_t fewest_iterations = 0;
+  // How many more than that the others have needed.
   int64_t excess_iterations = 0;
 };
 
@@ -52,10 +52,10 @@ class CoupledTangent {
   // Assembles and factorises at `point`. False if the factorisation fails.
   bool Factorize(const TangentPoint& point);
 
-  // The factorisation as it is now, and back to it in a tangent of the same
-  // structure and step. Restore is false, and nothing is factorised, if the
-  // sizes do not fit or the matrix cannot be factorised.
+  // The factorisation as it is now.
   KeptTangent Keep() const;
+  // Back to one of a tangent of the same structure and step. False, and nothing
+  // is factorised, if the sizes do not fit or the matrix cannot be factorised.
   bool Restore(const KeptTangent& kept);
 
   // Frames of the nodes: how the whole has turned since the factorisation.
@@ -70,7 +70,9 @@ class CoupledTangent {
              Matrix3Xd* correction, Matrix3Xd* multiplier_correction,
              WorkTeam* team = nullptr);
 
+  // By Factorize and Restore so far.
   int num_factorizations() const { return num_factorizations_; }
+  // In use: never kAutomatic.
   SymmetricFactor::Method method() const { return factor_.method(); }
 
  private:

@@ -36,6 +36,9 @@ struct IntegratorOptions {
   double time_step = 0.0;  // Δt [s]; negative steps go back in time.
   // Empty: to round-off. Else relative, in (0, 1): see NewtonOptions.
   std::optional<double> tolerance = std::nullopt;
+  // Of one attempt at a step or at a part of one. Structures are tried up to
+  // five times; where conventional bodies are attached to lines, an attempt
+  // that still shrinks goes on for up to three times as many.
   int max_iterations = 60;
   // The reference path for tests: Newton's method with the exact Jacobian for
   // free bodies, a fresh factorisation in every iteration for structures.
@@ -57,6 +60,7 @@ class EMMY_EXPORT EnergyMomentumIntegrator {
 
   // Here, so that whoever links to a shared library needs no other symbol.
   EnergyMomentumIntegrator(EnergyMomentumIntegrator&&) noexcept;
+  // The same.
   EnergyMomentumIntegrator& operator=(EnergyMomentumIntegrator&&) noexcept;
   ~EnergyMomentumIntegrator();
 
@@ -70,11 +74,13 @@ class EMMY_EXPORT EnergyMomentumIntegrator {
   // What is kept from step to step besides the state: factorisations of
   // structures, one for each size of step and structure. With its state and
   // what was kept then, another integrator of the same model and options goes
-  // on with the same bits. Restore fails with kInvalidArgument, and forgets
-  // all factorisations, if `kept` does not fit.
+  // on with the same bits.
   std::vector<KeptTangent> Keep() const;
+  // The inverse. Fails with kInvalidArgument, and forgets all factorisations,
+  // if `kept` does not fit.
   absl::Status Restore(const std::vector<KeptTangent>& kept);
 
+  // As given to Create.
   const IntegratorOptions& options() const { return options_; }
 
   // Factorisations of structures so far.

@@ -31,10 +31,11 @@ namespace emmy {
 
 // How the equations of a step are solved; see IntegratorOptions.
 struct ModelStepOptions {
-  NewtonOptions newton;
-  bool always_full_newton = false;
+  NewtonOptions newton;             // When to stop.
+  bool always_full_newton = false;  // The reference path for tests.
+  // Of structures.
   SymmetricFactor::Method factor_method = SymmetricFactor::Method::kAutomatic;
-  int num_threads = 1;
+  int num_threads = 1;  // Of long chains and large nets.
 };
 
 class ModelStep {
@@ -45,6 +46,7 @@ class ModelStep {
       const Model& model, const std::vector<Structure>& structures,
       double time_step, const ModelStepOptions& options);
 
+  // Δt [s]
   double time_step() const { return time_step_; }
 
   // Solves for the next state; `state` is not changed. If it returns false,
@@ -61,8 +63,10 @@ class ModelStep {
 
   // What each structure's step keeps from step to step.
   const std::vector<CoupledStep>& coupled() const { return coupled_; }
+  // The same, to restore it.
   std::vector<CoupledStep>& coupled() { return coupled_; }
 
+  // The same of joined conventional bodies.
   const std::vector<std::unique_ptr<JointStep>>& joined() const {
     return joined_;
   }

@@ -20,13 +20,15 @@ using Observer = std::function<bool(const State&, const StepReport&)>;
 // What became of a run.
 struct [[nodiscard]] SimulationReport {
   Termination termination = Termination::kConverged;  // Of the last step.
-  bool stopped_by_observer = false;
-  int64_t steps = 0;  // Accepted steps of this run.
-  int64_t total_iterations = 0;
-  int max_iterations = 0;
+  bool stopped_by_observer = false;                   // By returning false.
+  int64_t steps = 0;             // Accepted steps of this run.
+  int64_t total_iterations = 0;  // Of the accepted steps.
+  int max_iterations = 0;        // Of one accepted step.
   std::string message;  // Of the step that failed; `state` is before it.
 
+  // No step failed, whether or not the observer ended the run.
   bool ok() const { return termination == Termination::kConverged; }
+  // Per accepted step; 0 without one.
   double mean_iterations() const {
     return steps > 0 ? static_cast<double>(total_iterations) /
                            static_cast<double>(steps)

@@ -16,45 +16,45 @@ namespace emmy {
 struct Structure {
   // With the places of its numbers in the structure.
   struct Body {
-    const ModelBody* body = nullptr;
-    int first = 0;         // Local number of x̄.
-    int first_strain = 0;  // Local.
+    const ModelBody* body = nullptr;  // Of the model.
+    int first = 0;                    // Local number of x̄.
+    int first_strain = 0;             // Local.
   };
   // A truss, cable or spring.
   struct Line {
-    const ModelLine* line = nullptr;
+    const ModelLine* line = nullptr;    // Of the model.
     std::vector<WeightedVector> terms;  // Of d, local numbers.
     int strain = 0;                     // Local.
   };
   // A joint: Σ weight · q over its terms is constant.
   struct Constraint {
-    size_t index = 0;  // Of the model.
-    std::vector<WeightedVector> terms;
+    size_t index = 0;                   // Of the model.
+    std::vector<WeightedVector> terms;  // Local numbers.
   };
   // A constant force at a point of the structure.
   struct Force {
-    std::vector<WeightedVector> terms;
-    Vector3d force = Vector3d::Zero();
+    std::vector<WeightedVector> terms;  // Of the point, local numbers.
+    Vector3d force = Vector3d::Zero();  // Inertial [N].
   };
   // A constant torque on a body.
   struct Torque {
-    int first = 0;  // Local number of x̄.
-    Vector3d torque = Vector3d::Zero();
+    int first = 0;                       // Local number of x̄.
+    Vector3d torque = Vector3d::Zero();  // Inertial [N m].
   };
   // An entry of the mass matrix.
   struct Mass {
-    int row = 0;
-    int column = 0;  // ≤ row: each pair once.
-    double mass = 0.0;
+    int row = 0;        // Local number.
+    int column = 0;     // ≤ row: each pair once.
+    double mass = 0.0;  // [kg, kg m, kg m²]
   };
 
-  std::vector<VectorCoordinate> vectors;
-  std::vector<Body> bodies;
-  std::vector<Line> lines;
-  std::vector<Constraint> constraints;
-  std::vector<Force> forces;
-  std::vector<Torque> torques;
-  std::vector<Mass> masses;
+  std::vector<VectorCoordinate> vectors;     // By local number.
+  std::vector<Body> bodies;                  // Those whose vectors are here.
+  std::vector<Line> lines;                   // With an end on these vectors.
+  std::vector<Constraint> constraints;       // Among them, or to the ground.
+  std::vector<Force> forces;                 // At points of them.
+  std::vector<Torque> torques;               // On the bodies.
+  std::vector<Mass> masses;                  // The mass matrix.
   Vector3d gravity = Vector3d::Zero();       // [m/s²]
   Matrix3Xd gravity_force;                   // Constant [N].
   std::vector<Eigen::Index> strain_offsets;  // In the state, by local number.
@@ -74,7 +74,9 @@ struct Structure {
   // force and moment need not vanish.
   bool is_grounded = false;
 
+  // Columns of the mass matrix.
   int num_vectors() const { return static_cast<int>(vectors.size()); }
+  // Rows of G.
   int num_constraints() const { return static_cast<int>(constraints.size()); }
 };
 

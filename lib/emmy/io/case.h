@@ -14,24 +14,28 @@
 
 namespace emmy {
 
-enum class Method { kEnergyMomentum };
+// The integrator of a case.
+enum class Method {
+  kEnergyMomentum,  // EnergyMomentumIntegrator.
+};
 
 // How a case is integrated, and for how long.
 struct IntegratorSettings {
-  Method method = Method::kEnergyMomentum;
-  int order = 2;           // 2, 4 or 6.
-  double time_step = 0.0;  // h [s], > 0.
-  double duration = 0.0;   // T [s], > 0.
+  Method method = Method::kEnergyMomentum;  // There is no other.
+  int order = 2;                            // 2, 4 or 6.
+  double time_step = 0.0;                   // h [s], > 0.
+  double duration = 0.0;                    // T [s], > 0.
   // Relative tolerance of the iteration, in (0, 1); without one it runs until
   // round-off stops it.
   std::optional<double> tolerance;
 };
 
+// What a case file says.
 struct Case {
-  std::string name;
-  std::string purpose;  // One sentence.
-  ModelDescription model;
-  IntegratorSettings integrator;
+  std::string name;               // Stands in the summary.
+  std::string purpose;            // One sentence.
+  ModelDescription model;         // As BuildModel takes it.
+  IntegratorSettings integrator;  // How, and for how long.
   int64_t output_every = 1;  // Steps from one written row to the next, >= 1.
 };
 

@@ -32,9 +32,9 @@ EMMY_EXPORT absl::StatusOr<Case> ReadCaseFile(
 
 // A case, and what is made of it.
 struct LoadedCase {
-  Case description;
-  Model model;
-  State state;  // At time 0.
+  Case description;  // As read.
+  Model model;       // As built from it.
+  State state;       // At time 0.
 };
 
 // Builds the model of a case; energy and momentum at the start must be finite.

@@ -45,17 +45,18 @@
 
 namespace emmy {
 
+// What the file holds.
 struct Checkpoint {
-  std::string case_name;
+  std::string case_name;       // Case::name, for messages.
   uint64_t case_checksum = 0;  // CaseChecksum
   std::string build;           // CheckpointBuild() of the writer.
-  State state;
+  State state;                 // After its last step, compensations included.
   std::vector<KeptTangent> kept;  // EnergyMomentumIntegrator::Keep.
-  InvariantExtremes extremes;
-  int64_t total_iterations = 0;
-  int64_t max_iterations = 0;
-  int64_t last_iterations = 0;  // Of the step that led to `state`.
-  double wall_seconds = 0.0;    // Spent so far.
+  InvariantExtremes extremes;     // InvariantMonitor::extremes.
+  int64_t total_iterations = 0;   // Of all steps so far.
+  int64_t max_iterations = 0;     // Of one step.
+  int64_t last_iterations = 0;    // Of the step that led to `state`.
+  double wall_seconds = 0.0;      // Spent so far.
   // The rows up to `state` of a run that writes a history.
   std::optional<HistoryPosition> history;
 };
@@ -82,6 +83,7 @@ EMMY_EXPORT absl::StatusOr<Checkpoint> DecodeCheckpoint(
 // the disk on return; messages begin with `path`.
 EMMY_EXPORT absl::Status WriteCheckpoint(const std::string& path,
                                          const Checkpoint& checkpoint);
+// DecodeCheckpoint of the content of a file; messages begin with `path`.
 EMMY_EXPORT absl::StatusOr<Checkpoint> ReadCheckpoint(const std::string& path);
 
 // Fails with kInvalidArgument and the reason unless the checkpoint is one of a

@@ -59,6 +59,7 @@ class EMMY_EXPORT HistoryWriter {
   // and fails with kDataLoss: call nothing else then.
   static absl::StatusOr<HistoryWriter> Open(const std::string& path,
                                             const Model& model);
+  // The second part.
   absl::Status Begin();
 
   // Opens the file to go on at `position`, and cuts off what is beyond it.
@@ -77,6 +78,7 @@ class EMMY_EXPORT HistoryWriter {
   // Waits until all rows are on the disk; then where the next one will begin.
   absl::StatusOr<HistoryPosition> Sync();
 
+  // As given.
   const std::string& path() const { return path_; }
 
  private:

@@ -12,17 +12,17 @@ namespace {
 using OrderedJson = nlohmann::ordered_json;
 
 // Text that may have file names in it, which are any bytes.
-OrderedJson ToJson(const std::string& text) {
+OrderedJson RecordJson(const std::string& text) {
   return OrderedJson::parse(OrderedJson(text).dump(
       -1, ' ', false, OrderedJson::error_handler_t::replace));
 }
-OrderedJson ToJson(double x) { return x; }
-OrderedJson ToJson(const Vector3d& v) { return {v.x(), v.y(), v.z()}; }
+OrderedJson RecordJson(double x) { return x; }
+OrderedJson RecordJson(const Vector3d& v) { return {v.x(), v.y(), v.z()}; }
 
 template <typename Record>
-OrderedJson ToJson(const Record& record) {
-  return {{"initial", ToJson(record.initial)},
-          {"final", ToJson(record.final)},
+OrderedJson RecordJson(const Record& record) {
+  return {{"initial", RecordJson(record.initial)},
+          {"final", RecordJson(record.final)},
           {"max_error", record.max_error},
           {"scale", record.scale},
           {"max_relative_error", record.max_relative_error()},
@@ -48,14 +48,15 @@ std::string WriteSummary(const RunSummary& summary) {
   OrderedJson json = {{"format", "emmy-summary/1"},
                       {"case", summary.case_name},
                       {"status", StatusName(summary.status)}};
-  if (!summary.message.empty()) json["message"] = ToJson(summary.message);
+  if (!summary.message.empty()) json["message"] = RecordJson(summary.message);
   json["steps"] = summary.steps;
   json["time"] = summary.time;
   json["wall_seconds"] = summary.wall_seconds;
   json["degrees_of_freedom"] = summary.degrees_of_freedom;
-  json["invariants"] = {{"energy", ToJson(summary.energy)},
-                        {"momentum", ToJson(summary.momentum)},
-                        {"angular_momentum", ToJson(summary.angular_momentum)}};
+  json["invariants"] = {
+      {"energy", RecordJson(summary.energy)},
+      {"momentum", RecordJson(summary.momentum)},
+      {"angular_momentum", RecordJson(summary.angular_momentum)}};
   json["newton"] = {{"mean_iterations", summary.mean_iterations},
                     {"max_iterations", summary.max_iterations}};
   json["build"] = {{"version", build.version},

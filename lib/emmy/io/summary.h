@@ -11,6 +11,7 @@
 
 namespace emmy {
 
+// How a run ended.
 enum class RunStatus {
   kCompleted,    // All steps done.
   kFailed,       // Stopped by an error before that; the message says which.
@@ -19,18 +20,18 @@ enum class RunStatus {
 
 // What became of a run.
 struct RunSummary {
-  std::string case_name;
-  RunStatus status = RunStatus::kFailed;
-  std::string message;  // Empty if completed.
-  int64_t steps = 0;    // Accepted steps.
-  double time = 0.0;    // Reached [s].
-  double wall_seconds = 0.0;
-  int64_t degrees_of_freedom = 0;
-  EnergyRecord energy;
-  MomentumRecord momentum;
-  MomentumRecord angular_momentum;
-  double mean_iterations = 0.0;
-  int max_iterations = 0;
+  std::string case_name;                  // Case::name
+  RunStatus status = RunStatus::kFailed;  // How it ended.
+  std::string message;                    // Empty if completed.
+  int64_t steps = 0;                      // Accepted steps.
+  double time = 0.0;                      // Reached [s].
+  double wall_seconds = 0.0;              // Of all its parts, if resumed [s].
+  int64_t degrees_of_freedom = 0;         // Model::degrees_of_freedom
+  EnergyRecord energy;                    // InvariantMonitor::energy
+  MomentumRecord momentum;                // InvariantMonitor::momentum
+  MomentumRecord angular_momentum;        // InvariantMonitor::angular_momentum
+  double mean_iterations = 0.0;           // Per step.
+  int max_iterations = 0;                 // Of one step.
 };
 
 // "completed", "failed" or "interrupted".

@@ -13,7 +13,7 @@ namespace emmy {
 
 // What a description describes.
 struct BuiltModel {
-  Model model;
+  Model model;  // What stays.
   State state;  // At time 0.
 };
 

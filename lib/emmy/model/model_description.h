@@ -46,12 +46,13 @@ struct TensorInertia {
   double volume = 0.0;                 // [m^3], > 0; scales the penalty.
 };
 
-// w + x i + y j + z k, not zero; BuildModel normalises it.
+// w + x i + y j + z k, not zero; BuildModel normalises it. Turns body axes
+// into inertial ones.
 struct Quaternion {
-  double w = 1.0;
-  double x = 0.0;
-  double y = 0.0;
-  double z = 0.0;
+  double w = 1.0;  // The cosine of half the angle.
+  double x = 0.0;  // Of i: inertial x.
+  double y = 0.0;  // Of j: inertial y.
+  double z = 0.0;  // Of k: inertial z.
 };
 
 // An orientation by one turn from the inertial axes.
@@ -61,32 +62,33 @@ struct RotationVector {
 
 // A rigid body, in either formulation, and how it starts.
 struct RigidBodyDescription {
-  std::string name;
-  Formulation formulation = Formulation::kAncf;
-  std::variant<BoxInertia, TensorInertia> inertia;
+  std::string name;  // Of no other body, node, truss or spring.
+  Formulation formulation = Formulation::kAncf;     // Which coordinates.
+  std::variant<BoxInertia, TensorInertia> inertia;  // Mass and moments.
   // One coefficient for all strains or six in the order of (ANCF-4) [Pa];
   // required for kAncf, not allowed for kConventional.
   std::variant<std::monostate, double, std::array<double, 6>> penalty;
   Vector3d position = Vector3d::Zero();  // Centre of mass [m].
+  // Of the body axes at the start; unturned if not given.
   std::variant<Quaternion, RotationVector> orientation;
   Vector3d velocity = Vector3d::Zero();          // Centre of mass [m/s].
   Vector3d angular_velocity = Vector3d::Zero();  // [rad/s]
   bool angular_velocity_in_body_axes = false;    // Else inertial.
-  Start start = Start::kUndeformed;
+  Start start = Start::kUndeformed;              // Of an ANCF body.
 };
 
 // A point fixed in a body.
 struct BodyPoint {
-  std::string body;
+  std::string body;                   // Name.
   Vector3d point = Vector3d::Zero();  // ξ in body axes [m].
 };
 // A node, by its name.
 struct NodePoint {
-  std::string node;
+  std::string node;  // Name.
 };
 // A point fixed in space.
 struct GroundPoint {
-  Vector3d position = Vector3d::Zero();  // [m]
+  Vector3d position = Vector3d::Zero();  // Inertial [m].
 };
 
 // Any of these points.
@@ -94,57 +96,59 @@ using PointDescription = std::variant<BodyPoint, NodePoint, GroundPoint>;
 
 // The node starts with the velocity of the body's material point there.
 struct MovesWith {
-  std::string body;
+  std::string body;  // Name.
 };
 
 // A point with its own mass, or none.
 struct NodeDescription {
-  std::string name;
+  std::string name;                      // Of no other item, as of bodies.
   double mass = 0.0;                     // [kg], >= 0.
-  Vector3d position = Vector3d::Zero();  // [m]
+  Vector3d position = Vector3d::Zero();  // At the start, inertial [m].
   std::variant<Vector3d, MovesWith> velocity =
-      Vector3d(0.0, 0.0, 0.0);  // [m/s]
-  bool fixed = false;
+      Vector3d(0.0, 0.0, 0.0);  // At the start, inertial [m/s].
+  bool fixed = false;           // In space, from the start on.
 };
 
 // A truss or cable between two points.
 struct TrussDescription {
-  std::string name;
-  std::array<PointDescription, 2> ends;
-  double area = 0.0;             // [m^2], > 0.
-  double density = 0.0;          // [kg/m^3], >= 0.
-  double young_modulus = 0.0;    // [Pa], > 0.
-  bool tension_only = false;     // A cable: no force in compression.
+  std::string name;                      // Of no other item, as of bodies.
+  std::array<PointDescription, 2> ends;  // From the first to the second.
+  double area = 0.0;                     // [m^2], > 0.
+  double density = 0.0;                  // [kg/m^3], >= 0.
+  double young_modulus = 0.0;            // [Pa], > 0.
+  bool tension_only = false;             // A cable: no force in compression.
   std::optional<double> length;  // Natural length [m]; else the initial one.
 };
 
 // A linear spring between two points.
 struct SpringDescription {
-  std::string name;
-  std::array<PointDescription, 2> ends;
-  double stiffness = 0.0;  // [N/m], > 0.
-  double length = 0.0;     // Natural length [m], >= 0.
+  std::string name;                      // Of no other item, as of bodies.
+  std::array<PointDescription, 2> ends;  // From the first to the second.
+  double stiffness = 0.0;                // [N/m], > 0.
+  double length = 0.0;                   // Natural length [m], >= 0.
 };
 
 // A force at a point.
 struct ForceLoad {
-  PointDescription point;
+  PointDescription point;             // Where it acts, for good.
   Vector3d force = Vector3d::Zero();  // Constant, inertial [N].
 };
 // A torque on a body.
 struct TorqueLoad {
-  std::string body;
+  std::string body;                    // Name.
   Vector3d torque = Vector3d::Zero();  // Constant, inertial [N m].
 };
 
+// A whole model.
 struct ModelDescription {
-  Vector3d gravity = Vector3d::Zero();  // [m/s^2]
-  std::vector<RigidBodyDescription> rigid_bodies;
-  std::vector<NodeDescription> nodes;
-  std::vector<TrussDescription> trusses;
-  std::vector<SpringDescription> springs;
+  Vector3d gravity = Vector3d::Zero();             // Inertial [m/s^2].
+  std::vector<RigidBodyDescription> rigid_bodies;  // At least a body or node.
+  std::vector<NodeDescription> nodes;              // Points with a name.
+  std::vector<TrussDescription> trusses;           // Trusses and cables.
+  std::vector<SpringDescription> springs;          // By true distance.
+  // Pairs of points that coincide at the start and stay together.
   std::vector<std::array<PointDescription, 2>> shared_points;
-  std::vector<std::variant<ForceLoad, TorqueLoad>> loads;
+  std::vector<std::variant<ForceLoad, TorqueLoad>> loads;  // Constant.
 };
 
 }  // namespace emmy

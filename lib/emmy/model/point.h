@@ -12,8 +12,8 @@ namespace emmy {
 
 // One vector coordinate (see Model::vectors) and its constant weight.
 struct WeightedVector {
-  int vector = 0;
-  double weight = 0.0;
+  int vector = 0;       // Index in Model::vectors.
+  double weight = 0.0;  // φ [-], or ξ [m] on a gradient vector.
 };
 
 // A linear function of the coordinates with constant weights:
@@ -23,11 +23,12 @@ struct WeightedVector {
 // A point fixed in a conventional body, x = x̄ + R ξ, is not linear; it names
 // the body and ξ instead and has no terms.
 struct Point {
-  std::vector<WeightedVector> terms;
-  Vector3d ground = Vector3d::Zero();  // [m]
-  std::optional<size_t> conventional_body;
-  Vector3d xi = Vector3d::Zero();  // In that body's axes [m].
+  std::vector<WeightedVector> terms;        // φₐ of qₐ.
+  Vector3d ground = Vector3d::Zero();       // x_ground, inertial [m].
+  std::optional<size_t> conventional_body;  // Index in Model::bodies.
+  Vector3d xi = Vector3d::Zero();           // In that body's axes [m].
 
+  // Fixed in space.
   bool is_ground() const {
     return terms.empty() && !conventional_body.has_value();
   }

@@ -16,11 +16,11 @@ namespace emmy {
 // (w, x, y, z) of a conventional body. Velocities are their rates, except the
 // angular velocity of a conventional body, in body axes [rad/s].
 struct State {
-  int64_t step = 0;
-  CompensatedDouble time;  // [s]
-  CompensatedVector position;
-  CompensatedVector velocity;
-  CompensatedVector strain;  // Carried, never recomputed: (QS-1).
+  int64_t step = 0;            // Steps taken since the start.
+  CompensatedDouble time;      // [s]
+  CompensatedVector position;  // Model::num_positions entries, as above.
+  CompensatedVector velocity;  // Model::num_velocities entries, as above.
+  CompensatedVector strain;    // Carried, never recomputed: (QS-1).
   // Velocities of elements' ends on conventional bodies [m/s]: advanced by
   // ½ (v₀ + v₁) = Δx/Δt like all others, but not linear in the body's.
   CompensatedVector end_velocity;
@@ -29,8 +29,8 @@ struct State {
   // Velocity increments per second and joint forces [N] of the last steps: only
   // the start values of the next iteration, kept here so that a resumed run
   // repeats every bit.
-  Extrapolation acceleration;
-  Extrapolation multiplier;
+  Extrapolation acceleration;  // One sequence a velocity [m/s², rad/s²].
+  Extrapolation multiplier;    // Of Model::num_multipliers [N].
 };
 
 }  // namespace emmy

@@ -11,13 +11,16 @@
 
 namespace emmy {
 
+// Entries of the vectors of a State.
 struct StateSize {
-  Eigen::Index position = 0;
-  Eigen::Index velocity = 0;
-  Eigen::Index strain = 0;
-  Eigen::Index end_velocity = 0;
+  Eigen::Index position = 0;      // Of State::position,
+  Eigen::Index velocity = 0;      // State::velocity,
+  Eigen::Index strain = 0;        // State::strain
+  Eigen::Index end_velocity = 0;  // and State::end_velocity.
 
+  // Whether all are the same.
   friend bool operator==(const StateSize&, const StateSize&) = default;
+  // For messages.
   friend std::ostream& operator<<(std::ostream& os, const StateSize& size) {
     return os << size.position << " positions, " << size.velocity
               << " velocities, " << size.strain << " strains, "
@@ -25,6 +28,7 @@ struct StateSize {
   }
 };
 
+// What a state of `model` has.
 inline StateSize SizeOf(const Model& model) {
   return {.position = model.num_positions(),
           .velocity = model.num_velocities(),
@@ -32,6 +36,7 @@ inline StateSize SizeOf(const Model& model) {
           .end_velocity = model.num_end_velocities()};
 }
 
+// What `state` has.
 inline StateSize SizeOf(const State& state) {
   return {.position = state.position.value.size(),
           .velocity = state.velocity.value.size(),

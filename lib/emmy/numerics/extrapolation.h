@@ -31,6 +31,7 @@ struct Extrapolation {
   VectorXd next;         // Prediction, one entry a sequence.
   MatrixXd differences;  // ∇⁰ … ∇³ of the last value, a column an order.
 
+  // As after values that were all zero.
   void SetZero(Eigen::Index size) {
     next.setZero(size);
     differences.setZero(size, kOrders);

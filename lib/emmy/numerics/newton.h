@@ -18,9 +18,10 @@ struct NewtonOptions {
   // velocity correction is at most tolerance · max|w|, which leaves a residual
   // whose work is the energy error.
   std::optional<double> tolerance;
-  int max_iterations = 60;
+  int max_iterations = 60;  // Of one attempt.
 };
 
+// Why an iteration ended.
 enum class Termination {
   kConverged,        // The state is the accepted step.
   kMaxIterations,    // The state is unchanged.
@@ -31,20 +32,22 @@ enum class Termination {
 
 // How the iteration of a step ended.
 struct [[nodiscard]] StepReport {
-  Termination termination = Termination::kMaxIterations;
+  Termination termination = Termination::kMaxIterations;  // Why it ended.
   // The most any part of the model needed; for orders 4 and 6 summed over the
   // parts of the step.
   int iterations = 0;
   // Largest velocity correction of the last iteration [m/s, rad/s].
   double correction = 0.0;
   std::string message;  // Non-empty unless kConverged.
+  // Whether the step was accepted.
   bool ok() const { return termination == Termination::kConverged; }
 };
 
 // Iterations after corrections have reached round-off in which the finer
 // measures (net moment, work) may still settle. With the exact Jacobian, what
 // has not shrunk by then is their rounding, whatever its estimate says; with
-// any other it may be slow, and is not accepted.
+// any other it may be slow: an ANCF structure goes on with the exact one, a
+// conventional structure, which has none, accepts what is left.
 inline constexpr int kStagnationPatience = 20;
 
 // Within how many floors a sequence may be judged to have stopped shrinking.
@@ -52,6 +55,7 @@ inline constexpr int kStagnationPatience = 20;
 // of a net force, a moment or work is a sum of known terms, which rounding
 // exceeds a few times at most.
 inline constexpr double kNearFloor = 1e3;
+// The same of what a law forbids to remain.
 inline constexpr double kNearLawFloor = 64.0;
 
 // How much of a floor may be left with the same sign in every step: that adds
@@ -84,6 +88,7 @@ inline constexpr double kLargestShare = 1e-8;
 // seen, or bounded by the correction itself (LANE-6).
 class StagnationMonitor {
  public:
+  // `explains_rounding`: the members before one at the floor are asked.
   explicit StagnationMonitor(double negligible = kNegligibleRest,
                              bool explains_rounding = false,
                              double near_floor = kNearFloor)

@@ -22,20 +22,24 @@ namespace emmy {
 
 class SymmetricFactor {
  public:
+  // How A is factorised.
   enum class Method {
-    kAutomatic,  // kDense up to kDenseLimit unknowns, else kPanels.
-    kDense,
+    kAutomatic,   // kDense up to kDenseLimit unknowns, else kPanels.
+    kDense,       // LDLᵀ without regard to zeros.
     kPanels,      // Our own LDLᵀ (supernodal_solve.h).
     kSimplicial,  // Eigen's LDLᵀ.
     kSupernodal,  // CHOLMOD's LLᵀ; positive definite only.
   };
+  // Up to how many unknowns kAutomatic takes A for dense.
   static constexpr int kDenseLimit = 48;
 
   // Analyses the pattern of `matrix`, which later matrices must share.
   SymmetricFactor(const SymmetricBlockMatrix& matrix, bool positive_definite,
                   Method method = Method::kAutomatic);
   ~SymmetricFactor();
+  // Moves the factors; the one moved from may only be assigned to or destroyed.
   SymmetricFactor(SymmetricFactor&&) noexcept;
+  // The same.
   SymmetricFactor& operator=(SymmetricFactor&&) noexcept;
 
   // False if a pivot vanishes (or, for kSupernodal, is not positive).
@@ -45,6 +49,7 @@ class SymmetricFactor {
   // shared, the bits do not depend on it; null: the caller's thread alone.
   void Solve(const VectorXd& b, VectorXd* x, WorkTeam* team = nullptr);
 
+  // The one in use: never kAutomatic.
   Method method() const { return method_; }
 
  private:
