@@ -23,6 +23,7 @@ namespace emmy {
 namespace {
 
 using nlohmann::json;
+using ::testing::Contains;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::Not;
@@ -230,6 +231,28 @@ TEST_F(ResumeTest, AFullDiskLeavesWhatItTakesToGoOn) {
       "--set /output/every=1");
   EXPECT_TRUE(Read("out/history.csv") == Read("whole/history.csv"));
   EXPECT_EQ(Summary("out"), Summary("whole"));
+}
+
+// Where there is not yet a checkpoint of the new name.
+TEST_F(ResumeTest, AFullDiskBeforeTheFirstCheckpointNamesTheOneItBeganFrom) {
+  const std::string run =
+      "\"$EMMY\" run tangle.json --output out --quiet "
+      "--set /output/every=1 --checkpoint-every 100000 ";
+  EXPECT_EQ(Shell(run + "--steps 20 --checkpoint c").exit_status, 0);
+  const ProgramResult result =
+      Shell("ulimit -f 128; " + run + "--steps 200 --resume c --checkpoint d");
+  EXPECT_EQ(result.exit_status, 1);
+  EXPECT_THAT(Files(), Not(Contains("d")));
+  const size_t command = result.err.find("emmy run tangle.json");
+  ASSERT_NE(command, std::string::npos) << result.err;
+  EXPECT_THAT(result.err, HasSubstr("--checkpoint d --resume c"));
+  const ProgramResult resumed = Shell(absl::StrReplaceAll(
+      result.err.substr(command), {{"emmy run", "\"$EMMY\" run"}}));
+  EXPECT_EQ(resumed.exit_status, 0) << resumed.err;
+  EXPECT_EQ(Decode("d").state.step, 200);
+  Run("run tangle.json --output whole --quiet --steps 200 "
+      "--set /output/every=1");
+  EXPECT_TRUE(Read("out/history.csv") == Read("whole/history.csv"));
 }
 
 TEST_F(ResumeTest, ACaseWhoseNameLooksLikeAnOptionCanBeGoneOnWith) {

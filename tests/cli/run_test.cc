@@ -51,6 +51,21 @@ TEST_F(RunTest, PrintsTheSummaryAndWritesNothingWithoutOutput) {
   EXPECT_THAT(Files(), ElementsAre("box.json"));
 }
 
+// A terminal would take them for commands; the summary has the name as it is.
+TEST_F(RunTest, ControlCharactersOfTheCasesNameAreShownAsSuch) {
+  const std::string names =
+      R"( --set '/name="a\u001b[31m\u009b\nb"' --set '/purpose="\u0007."')";
+  const ProgramResult check = Run("check box.json" + names);
+  EXPECT_EQ(check.exit_status, 0);
+  EXPECT_THAT(check.out, StartsWith(R"(a\u001b[31m\u009b\u000ab)"
+                                    "\n  \\u0007.\n"));
+  const ProgramResult run = Run("run box.json --output out" + names);
+  EXPECT_EQ(run.exit_status, 0);
+  EXPECT_THAT(run.out, StartsWith(R"(a\u001b[31m\u009b\u000ab: 10 steps)"));
+  EXPECT_EQ(json::parse(Read("out/summary.json"))["case"],
+            "a\x1b[31m\u009b\nb");
+}
+
 TEST_F(RunTest, WritesHistoryAndSummaryIntoTheOutputFolder) {
   const ProgramResult result = Run("run box.json --output out");
   EXPECT_EQ(result.exit_status, 0);

@@ -6,9 +6,11 @@
 #include <cmath>
 #include <vector>
 
+#include "absl/strings/str_cat.h"
 #include "absl/strings/str_format.h"
 #include "emmy/diagnostics/body_motion.h"
 #include "emmy/diagnostics/invariant_monitor.h"
+#include "emmy/model/validation.h"
 
 namespace emmy {
 namespace {
@@ -148,8 +150,10 @@ double PenaltyFrequency(const AncfRigidBody& body) {
 std::string DescribeCase(const LoadedCase& loaded) {
   const Case& given = loaded.description;
   const ModelDescription& model = given.model;
-  std::string text = given.name + "\n";
-  if (!given.purpose.empty()) text += "  " + given.purpose + "\n";
+  std::string text = EscapeControls(given.name) + "\n";
+  if (!given.purpose.empty()) {
+    absl::StrAppend(&text, "  ", EscapeControls(given.purpose), "\n");
+  }
   text += absl::StrFormat("Gravity: %s m/s^2\n", DescribeVector(model.gravity));
   AddList(
       "Rigid bodies", model.rigid_bodies.size(),

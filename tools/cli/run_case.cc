@@ -12,6 +12,7 @@
 #include "emmy/diagnostics/invariant_monitor.h"
 #include "emmy/diagnostics/watched_run.h"
 #include "emmy/integrate/simulate.h"
+#include "emmy/model/validation.h"
 #include "tools/cli/interrupt.h"
 #include "tools/cli/progress.h"
 
@@ -188,9 +189,10 @@ RunResult RunCase(const RunOptions& options,
   } else {
     summary.status = RunStatus::kCompleted;
   }
-  result.can_be_resumed =
-      summary.status != RunStatus::kCompleted && report.ok() &&
-      (checkpointer.has_written() || options.resume != nullptr);
+  result.has_checkpoint = checkpointer.has_written();
+  result.can_be_resumed = summary.status != RunStatus::kCompleted &&
+                          report.ok() &&
+                          (result.has_checkpoint || options.resume != nullptr);
   summary.steps = state.step;
   summary.time = state.time.value;
   summary.wall_seconds = effort.wall_seconds;
@@ -209,8 +211,8 @@ RunResult RunCase(const RunOptions& options,
 std::string DescribeSummary(const RunSummary& summary) {
   std::string text = absl::StrFormat(
       "%s: %d steps to %.6g s in %.3g s, %.3g iterations a step\n",
-      summary.case_name, summary.steps, summary.time, summary.wall_seconds,
-      summary.mean_iterations);
+      EscapeControls(summary.case_name), summary.steps, summary.time,
+      summary.wall_seconds, summary.mean_iterations);
   const EnergyRecord& energy = summary.energy;
   text += DescribeInvariant("energy", "J", energy.max_error, energy.scale,
                             energy.max_relative_error(), energy.conserved);

@@ -25,7 +25,9 @@ struct RunOptions {
 
 struct RunResult {
   RunSummary summary;  // Of the whole run, what was before `resume` included.
-  // The run was stopped from outside, and its checkpoint is written.
+  bool has_checkpoint = false;  // It has written one itself.
+  // It ended early, and a checkpoint says where to go on: its own, or else the
+  // one it began from.
   bool can_be_resumed = false;
 };
 

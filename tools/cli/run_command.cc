@@ -121,8 +121,9 @@ std::string Quoted(const std::string& word) {
   return absl::StrCat("'", absl::StrReplaceAll(word, {{"'", "'\\''"}}), "'");
 }
 
-// The command that goes on with this run.
-std::string ResumeCommand(const RunArguments& arguments) {
+// The command that goes on with this run from `checkpoint`.
+std::string ResumeCommand(const RunArguments& arguments,
+                          const std::string& checkpoint) {
   const std::string& path = arguments.case_path;
   const char* folder = path.starts_with('-') ? "./" : "";  // Not an option.
   std::string command = "emmy run " + Quoted(absl::StrCat(folder, path));
@@ -142,7 +143,10 @@ std::string ResumeCommand(const RunArguments& arguments) {
     add("--threads", absl::StrCat(arguments.threads));
   }
   if (arguments.quiet) command += " --quiet";
-  add("--resume", arguments.checkpoint_path());
+  if (checkpoint != arguments.checkpoint_path()) {
+    add("--checkpoint", arguments.checkpoint_path());
+  }
+  add("--resume", checkpoint);
   return command;
 }
 
@@ -198,7 +202,10 @@ ExitStatus Report(const RunArguments& arguments, const RunResult& result,
   if (summary.status != RunStatus::kCompleted) {
     std::string message = arguments.case_path + ": " + summary.message;
     if (result.can_be_resumed) {
-      message += "\nTo go on: " + ResumeCommand(arguments);
+      message += "\nTo go on: " +
+                 ResumeCommand(arguments, result.has_checkpoint
+                                              ? arguments.checkpoint_path()
+                                              : arguments.resume);
     }
     PrintError(absl::InternalError(message), exit_status);
   }
