@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cmath>
+#include <cstdlib>
 #include <ostream>
 #include <string>
 #include <vector>
@@ -25,14 +26,16 @@ struct Regime {
 };
 
 std::vector<Regime> Regimes(
-    const std::vector<std::array<double, 3>>& steps_and_bounds) {
+    const std::vector<std::array<double, 3>>& steps_and_bounds,
+    const std::vector<int>& exponents = {6, 8, 10, 12, 14}) {
   std::vector<Regime> regimes;
   for (const auto& [time_step, num_steps, bound] : steps_and_bounds) {
-    for (const int exponent : {6, 8, 10, 12, 14}) {
+    for (const int exponent : exponents) {
       regimes.push_back(
           {.name = "Milliseconds" +
                    std::to_string(static_cast<int>(1000.0 * time_step)) +
-                   "Penalty1e" + std::to_string(exponent),
+                   "Penalty1e" + (exponent < 0 ? "Minus" : "") +
+                   std::to_string(std::abs(exponent)),
            .penalty = std::pow(10.0, exponent),
            .time_step = time_step,
            .num_steps = static_cast<int>(num_steps),
@@ -95,7 +98,9 @@ INSTANTIATE_TEST_SUITE_P(Regimes, HugeStepTest,
                          ::testing::ValuesIn(Regimes({{1.0, 50, 1e-13},
                                                       {2.0, 50, 1e-13},
                                                       {5.0, 50, 1e-13},
-                                                      {20.0, 50, 1e-13}})),
+                                                      {20.0, 50, 1e-13}},
+                                                     {-3, 0, 2, 4, 6, 8, 10, 12,
+                                                      14})),
                          Name);
 
 struct SoftRegime {

@@ -201,7 +201,7 @@ void ConventionalStructureStep::LimitTurns() {
 // and the work of the loads: an iterate that has run away is solved to the
 // round-off of its own size.
 bool ConventionalStructureStep::KeepsEnergy() const {
-  if (joints_.empty() || options_.tolerance.has_value()) return true;
+  if (options_.tolerance.has_value()) return true;
   double energy = 0.0;
   for (const Body& body : bodies_) {
     const ConventionalRigidBody& element = *body.body->conventional();

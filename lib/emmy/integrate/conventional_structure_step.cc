@@ -1,5 +1,6 @@
 #include "emmy/integrate/conventional_structure_step.h"
 
+#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
@@ -40,6 +41,10 @@ int ConventionalStructureStep::LocalBody(size_t index) {
     Body& body = bodies_.emplace_back();
     body.index = index;
     body.body = &model_->bodies()[index];
+    body.least_inertia =
+        Eigen::SelfAdjointEigenSolver<Matrix3d>(
+            body.body->conventional()->tensor(), Eigen::EigenvaluesOnly)
+            .eigenvalues()(0);
   }
   return local;
 }
@@ -468,7 +473,27 @@ ConventionalStructureStep::Scale ConventionalStructureStep::Scales() const {
   return scale;
 }
 
-// Σ r·w̄, which is the energy a residual puts in (EM-7).
+// The largest correction of a rate, where the rounding of impulses on a light
+// body between heavy ones moves it by more than that of the model's `rate`
+// does: its correction counts by the share that `rate` is of its own.
+double ConventionalStructureStep::LargestCorrection(double rate) const {
+  double result = correction_.segment(NodeRow(0), JointRow(0) - NodeRow(0))
+                      .lpNorm<Eigen::Infinity>();
+  for (size_t i = 0; i < bodies_.size(); ++i) {
+    const Index row = BodyRow(static_cast<int>(i));
+    const auto add = [&](Index at, double mass) {
+      const double own = magnitude_.segment<3>(at).maxCoeff() / mass;
+      const double size = correction_.segment<3>(at).cwiseAbs().maxCoeff();
+      result = std::max(result, own > rate ? size * (rate / own) : size);
+    };
+    add(row, bodies_[i].body->conventional()->mass());
+    add(row + 3, bodies_[i].least_inertia);
+  }
+  return result;
+}
+
+// Σ r·w̄, which is the energy a residual puts in (EM-7); what joints that do not
+// close add is not in it (CONJ-3).
 double ConventionalStructureStep::Work() const {
   double work = 0.0;
   for (size_t i = 0; i < bodies_.size(); ++i) {
@@ -509,7 +534,13 @@ BodyStepResult ConventionalStructureStep::Iterate(bool damped) {
   StagnationMonitor moment_monitor;
   double previous = std::numeric_limits<double>::infinity();
   int settled = 0;
-  for (int i = 1; i <= options_.max_iterations; ++i) {
+  int noise = 0;
+  constexpr int kNoisePatience = 3;  // Iterations, of which none was better.
+  // One that still shrinks is not begun again: it goes on, for as many
+  // iterations as new attempts would take.
+  constexpr int kAttempts = 3;
+  for (int i = 1; i <= kAttempts * options_.max_iterations; ++i) {
+    if (i > options_.max_iterations && !(result.correction < previous)) break;
     result.iterations = i;
     Evaluate();
     // Anew in every step, since the effective masses turn with the bodies;
@@ -549,8 +580,16 @@ BodyStepResult ConventionalStructureStep::Iterate(bool damped) {
     const bool moment_done =
         moment_monitor.Update(moment, kUnitRoundoff * scale.moment);
     if (rate_done) ++settled;
-    if (rate_done &&
-        ((work_done && moment_done) || settled > kStagnationPatience)) {
+    // By this iterate, and not by different ones.
+    const bool laws_hold =
+        work_done && moment_done &&
+        work <= kNearLawFloor * kUnitRoundoff * scale.work &&
+        moment <= kNearLawFloor * kUnitRoundoff * scale.moment;
+    const bool is_noise = laws_hold && LargestCorrection(scale.rate) <=
+                                           4.0 * kUnitRoundoff * scale.rate;
+    noise = is_noise ? noise + 1 : 0;
+    if ((rate_done && (laws_hold || settled > kStagnationPatience)) ||
+        noise > kNoisePatience) {
       result.termination = Termination::kConverged;
       return result;
     }
@@ -558,23 +597,29 @@ BodyStepResult ConventionalStructureStep::Iterate(bool damped) {
   return result;
 }
 
+// An iterate that has run away is none.
+BodyStepResult ConventionalStructureStep::IterateAndCheck(bool damped) {
+  BodyStepResult result = Iterate(damped);
+  Evaluate();
+  if (result.termination == Termination::kConverged && !KeepsEnergy()) {
+    result.termination = Termination::kMaxIterations;
+  }
+  return result;
+}
+
 BodyStepResult ConventionalStructureStep::Solve(const State& state) {
   Load(state);
-  BodyStepResult result = Iterate(/*damped=*/false);
+  BodyStepResult result = IterateAndCheck(/*damped=*/false);
   // Once more from rest, and with joints a third time in small turns.
   for (const bool damped : {false, true}) {
     if (result.termination == Termination::kConverged) break;
     if (damped && joints_.empty()) break;
     const int iterations = result.iterations;
     unknown_.setZero();
-    result = Iterate(damped);
+    result = IterateAndCheck(damped);
     result.iterations += iterations;
   }
-  Evaluate();
   open_joint_ = nullptr;
-  if (result.termination == Termination::kConverged && !KeepsEnergy()) {
-    result.termination = Termination::kMaxIterations;
-  }
   if (result.termination == Termination::kConverged) {
     open_joint_ = OpenJoint();
     if (open_joint_ != nullptr) {

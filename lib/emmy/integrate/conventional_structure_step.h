@@ -68,6 +68,7 @@ class ConventionalStructureStep {
   struct Body {
     size_t index = 0;
     const ModelBody* body = nullptr;
+    double least_inertia = 0.0;  // Smallest principal value of J.
     // Start.
     Vector4d quaternion;
     Matrix3d rotation;  // R₀
@@ -172,7 +173,9 @@ class ConventionalStructureStep {
   void EvaluateLine(Line* line);
   bool FormTangent();
   BodyStepResult Iterate(bool damped);
+  BodyStepResult IterateAndCheck(bool damped);
   Scale Scales() const;
+  double LargestCorrection(double rate) const;
   double Work() const;
   Vector3d Moment() const;
   void AddToTangent(const End& first, const End& second,

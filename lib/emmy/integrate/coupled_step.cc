@@ -255,6 +255,32 @@ double CoupledStep::ResidualWork() const {
          std::abs(impulse_.cwiseProduct(constraint_rate_).sum());
 }
 
+CoupledStep::Laws CoupledStep::MeasureLaws() const {
+  Vector3d force = Vector3d::Zero();
+  Vector3d moment = Vector3d::Zero();
+  for (Eigen::Index v = 0; v < residual_.cols(); ++v) {
+    if (structure_->translates[static_cast<size_t>(v)]) {
+      force += residual_.col(v);
+    }
+    moment += mean_.col(v).cross(residual_.col(v));
+  }
+  return {force.cwiseAbs().maxCoeff(), moment.cwiseAbs().maxCoeff(),
+          ResidualWork()};
+}
+
+// Whether the laws hold for the last Δw itself. Each was judged before the last
+// correction, and perhaps by different iterates, which noise in the corrections
+// takes back and forth.
+bool CoupledStep::LawsHold() const {
+  constexpr double kLawFloors = 8.0;
+  const Laws laws = MeasureLaws();
+  const Floors floors = RoundingFloors();
+  return (structure_->is_grounded ||
+          (laws.force <= kLawFloors * floors.force &&
+           laws.moment <= kLawFloors * floors.moment)) &&
+         laws.work <= kLawFloors * floors.work;
+}
+
 BodyStepResult CoupledStep::Iterate(bool exact) {
   BodyStepResult result;
   // What the laws forbid to remain is judged apart from the corrections: the
@@ -288,15 +314,7 @@ BodyStepResult CoupledStep::Iterate(bool exact) {
         tangent_.FollowStructure(mean_);
       }
     }
-    Vector3d force = Vector3d::Zero();
-    Vector3d moment = Vector3d::Zero();
-    for (Eigen::Index v = 0; v < residual_.cols(); ++v) {
-      if (structure_->translates[static_cast<size_t>(v)]) {
-        force += residual_.col(v);
-      }
-      moment += mean_.col(v).cross(residual_.col(v));
-    }
-    const double work = ResidualWork();
+    const Laws laws = MeasureLaws();
     const Floors floors = RoundingFloors();
 
     if (!SolveCorrection(exact)) {
@@ -308,7 +326,7 @@ BodyStepResult CoupledStep::Iterate(bool exact) {
     result.correction = MaxAbs(correction_);
     // An iterate that has run away can make corrections vanish: what it is
     // judged by must be finite as well.
-    if (!std::isfinite(result.correction) || !std::isfinite(work) ||
+    if (!std::isfinite(result.correction) || !std::isfinite(laws.work) ||
         !std::isfinite(floors.work) || !std::isfinite(floors.force) ||
         !std::isfinite(floors.moment) || !residual_.allFinite()) {
       result.termination = Termination::kNonFinite;
@@ -325,13 +343,12 @@ BodyStepResult CoupledStep::Iterate(bool exact) {
           rate_monitor.Update(result.correction, floors.rate);
       // Held by the ground, net force and moment carry the rounding of stiff
       // elements, and no law asks them to vanish.
-      const bool force_done =
-          structure_->is_grounded ||
-          force_monitor.Update(force.cwiseAbs().maxCoeff(), floors.force);
+      const bool force_done = structure_->is_grounded ||
+                              force_monitor.Update(laws.force, floors.force);
       const bool moment_done =
           structure_->is_grounded ||
-          moment_monitor.Update(moment.cwiseAbs().maxCoeff(), floors.moment);
-      const bool work_done = work_monitor.Update(work, floors.work);
+          moment_monitor.Update(laws.moment, floors.moment);
+      const bool work_done = work_monitor.Update(laws.work, floors.work);
       if (rate_done) ++settled;
       const bool laws_done = force_done && moment_done && work_done;
       const bool impatient = settled > kStagnationPatience;
@@ -404,9 +421,9 @@ void CoupledStep::GuessRigidTurn() {
   }
 }
 
-// Whether the residual's work (EM-7) is small against the energy of the start.
-// An iterate that has run away is solved to the round-off of its own size,
-// which may be more than all the energy there is.
+// Whether what the energy may change by (ResidualWork) is small against the
+// energy of the start. An iterate that has run away is solved to the round-off
+// of its own size, which may be more than all the energy there is.
 bool CoupledStep::KeepsEnergy() const {
   if (options_.newton.tolerance.has_value()) return true;
   double energy = 0.0;
@@ -434,9 +451,27 @@ BodyStepResult CoupledStep::IterateAndCheck(bool exact) {
   BodyStepResult result = Iterate(exact);
   Evaluate();  // Δq and Δε of the final Δw.
   AdvanceLines();
-  if (result.termination == Termination::kConverged && !KeepsEnergy()) {
+  if (result.termination == Termination::kConverged &&
+      (!KeepsEnergy() ||
+       (!exact && !options_.newton.tolerance.has_value() && !LawsHold()))) {
     result.termination = Termination::kMaxIterations;
   }
+  return result;
+}
+
+// With the kept tangent, and from where that leads with the exact Jacobian if
+// it is near but slow, or cannot bring the laws to their floors.
+BodyStepResult CoupledStep::IterateAndFinish() {
+  constexpr double kNear = 1e-6;
+  BodyStepResult result = IterateAndCheck(/*exact=*/false);
+  if (result.termination != Termination::kMaxIterations ||
+      !(result.correction <=
+        kNear * std::max(MaxAbs(w0_), MaxAbs(mean_rate_)))) {
+    return result;
+  }
+  const int iterations = result.iterations;
+  result = IterateAndCheck(/*exact=*/true);
+  result.iterations += iterations;
   return result;
 }
 
@@ -448,7 +483,7 @@ BodyStepResult CoupledStep::Solve(const State& state) {
   }
   int iterations = result.iterations;
   Load(state);
-  result = IterateAndCheck(/*exact=*/false);
+  result = IterateAndFinish();
   iterations += result.iterations;
   // Once more from a start without strain, then with the exact Jacobian.
   for (const bool exact : {false, true}) {
@@ -456,7 +491,7 @@ BodyStepResult CoupledStep::Solve(const State& state) {
     Load(state);
     GuessRigidTurn();
     renew_ = true;
-    result = IterateAndCheck(exact);
+    result = exact ? IterateAndCheck(/*exact=*/true) : IterateAndFinish();
     iterations += result.iterations;
   }
   result.iterations = iterations;

@@ -69,7 +69,12 @@ class CoupledStep {
   int num_factorizations() const { return tangent_.num_factorizations(); }
 
  private:
-  // Sizes that rounding alone gives to what must vanish.
+  // What must vanish: largest entries of the net force and moment of the
+  // residual [kg m/s, kg m²/s], and its work [J].
+  struct Laws {
+    double force, moment, work;
+  };
+  // Sizes that rounding alone gives to a correction and to these.
   struct Floors {
     double rate, force, moment, work;
   };
@@ -88,7 +93,10 @@ class CoupledStep {
   bool SolveCorrection(bool exact);
   BodyStepResult Iterate(bool exact);
   BodyStepResult IterateAndCheck(bool exact);
+  BodyStepResult IterateAndFinish();
   double ResidualWork() const;
+  Laws MeasureLaws() const;
+  bool LawsHold() const;
   bool KeepsEnergy() const;
   double LoadWork() const;
   void GuessRigidTurn();

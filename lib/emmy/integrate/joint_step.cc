@@ -84,7 +84,8 @@ JointStep::~JointStep() = default;
 
 BodyStepResult JointStep::Iterate() {
   BodyStepResult result;
-  // As in CoupledStep, whose rule this is.
+  // As in CoupledStep, but for the floors, which are those of some iterations
+  // before, and the end: what has not settled is begun again by CoupledStep.
   StagnationMonitor rate_monitor;
   StagnationMonitor force_monitor = StagnationMonitor::OfLaw();
   StagnationMonitor moment_monitor = StagnationMonitor::OfLaw();

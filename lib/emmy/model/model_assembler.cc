@@ -480,6 +480,28 @@ absl::Status ModelAssembler::AddJoint(const AnchorPair& pair) {
   return absl::OkStatus();
 }
 
+// The second point, moved in its body by what CheckTogether allows to where the
+// first is: the forces of a joint with a gap would exert a moment. Gaps of
+// rounding stay.
+Point ModelAssembler::Closed(const AnchorPair& pair) const {
+  const Point second = MakePoint(pair.second);
+  const auto* given = std::get_if<ResolvedBodyPoint>(&pair.second);
+  if (given == nullptr) return second;
+  const DoubleDouble3 first = MotionOf(pair.first).position;
+  const Vector3d gap = (first - MotionOf(pair.second).position).ToDouble();
+  constexpr double kRounding = 0x1p-48;
+  if (gap.norm() <= kRounding * std::max(size_, first.ToDouble().norm())) {
+    return second;
+  }
+  ResolvedBodyPoint moved = *given;
+  const Eigen::Index gradients =
+      model_.bodies_[given->body].position_offset + 3;
+  const Matrix3d frame = Eigen::Map<const Matrix3d>(
+      state_.position.value.segment<9>(gradients).data());
+  moved.xi += frame.inverse() * gap;
+  return MakePoint(moved);
+}
+
 absl::Status ModelAssembler::AddConstraints() {
   std::vector<ModelConstraint> constraints;
   for (const AnchorPair& pair : ties_.remaining()) {
@@ -497,7 +519,7 @@ absl::Status ModelAssembler::AddConstraints() {
     for (const WeightedVector& term : MakePoint(pair.first).terms) {
       row[term.vector] += term.weight;
     }
-    for (const WeightedVector& term : MakePoint(pair.second).terms) {
+    for (const WeightedVector& term : Closed(pair).terms) {
       row[term.vector] -= term.weight;
     }
     ModelConstraint constraint{

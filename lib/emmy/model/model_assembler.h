@@ -68,6 +68,7 @@ class ModelAssembler {
   // The point as a function of coordinates; nodes must have been added.
   Point MakePoint(const ResolvedPoint& resolved) const;
   Point BodyPointOf(const ResolvedBodyPoint& body_point) const;
+  Point Closed(const AnchorPair& pair) const;
   Motion MotionOf(const Point& point) const;
   Motion MotionOf(const ResolvedPoint& resolved) const;
   absl::Status CheckTogether(const std::string& pointer, const Motion& first,
