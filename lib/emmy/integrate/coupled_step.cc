@@ -281,7 +281,8 @@ bool CoupledStep::LawsHold() const {
          laws.work <= kLawFloors * floors.work;
 }
 
-BodyStepResult CoupledStep::Iterate(bool exact) {
+// From `near` the solution, gives up soon if it does not get there.
+BodyStepResult CoupledStep::Iterate(bool exact, bool near) {
   BodyStepResult result;
   // What the laws forbid to remain is judged apart from the corrections: the
   // net force, the net moment and the work of the residual (EM-7).
@@ -363,6 +364,9 @@ BodyStepResult CoupledStep::Iterate(bool exact) {
     }
     constexpr double kSlow = 0.5;
     const bool far = result.correction > 1e3 * floors.rate;
+    // Newton's method takes three iterations, unless cables go slack and taut.
+    constexpr int kFinish = 5;
+    if (near && far && i >= kFinish) return result;
     if (far && i > 1 && result.correction > kSlow * previous) {
       ++slow;
       if (!renewed || slow > 3) {
@@ -447,8 +451,8 @@ bool CoupledStep::KeepsEnergy() const {
   return ResidualWork() <= kLargestShare * (energy + load_work);
 }
 
-BodyStepResult CoupledStep::IterateAndCheck(bool exact) {
-  BodyStepResult result = Iterate(exact);
+BodyStepResult CoupledStep::IterateAndCheck(bool exact, bool near) {
+  BodyStepResult result = Iterate(exact, near);
   Evaluate();  // Δq and Δε of the final Δw.
   AdvanceLines();
   if (result.termination == Termination::kConverged &&
@@ -470,7 +474,7 @@ BodyStepResult CoupledStep::IterateAndFinish() {
     return result;
   }
   const int iterations = result.iterations;
-  result = IterateAndCheck(/*exact=*/true);
+  result = IterateAndCheck(/*exact=*/true, /*near=*/true);
   result.iterations += iterations;
   return result;
 }

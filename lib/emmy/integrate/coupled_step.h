@@ -91,8 +91,8 @@ class CoupledStep {
   void AdvanceLines();
   bool Renew();
   bool SolveCorrection(bool exact);
-  BodyStepResult Iterate(bool exact);
-  BodyStepResult IterateAndCheck(bool exact);
+  BodyStepResult Iterate(bool exact, bool near);
+  BodyStepResult IterateAndCheck(bool exact, bool near = false);
   BodyStepResult IterateAndFinish();
   double ResidualWork() const;
   Laws MeasureLaws() const;
