@@ -66,5 +66,32 @@ def test_help_says_what_the_stubs_say():
     assert "one thread at a time" in shown and "Goes on without" in shown
 
 
+def parameters(node):
+    """Name, whether it needs its name, and default of each parameter."""
+    a = node.args
+    plain = [*a.posonlyargs, *a.args]
+    defaults = [None] * (len(plain) - len(a.defaults)) + a.defaults
+    found = [(x.arg, False, d) for x, d in zip(plain, defaults)]
+    found += [(x.arg, True, d) for x, d in zip(a.kwonlyargs, a.kw_defaults)]
+    return [(name, needs_name, d and ast.unparse(d))
+            for name, needs_name, d in found if name not in ("self", "cls")]
+
+
+def test_the_same_parameters():
+    checked = 0
+    for name, node, item in members():
+        if not isinstance(node, ast.FunctionDef) or isinstance(item, property):
+            continue
+        # Of pybind11: the first line of the text.
+        signature = (item.__doc__ or "").split("\n")[0]
+        given = ast.parse(f"def {signature}: ...").body[0]
+        if node.name.startswith("__") and node.name != "__init__":
+            assert len(parameters(given)) == len(parameters(node)), name
+        else:
+            assert parameters(given) == parameters(node), name
+        checked += 1
+    assert checked >= 8
+
+
 def test_types_are_shipped():
     assert pathlib.Path(emmy.__file__).with_name("py.typed").exists()
