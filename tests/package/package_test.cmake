@@ -140,6 +140,19 @@ elseif(WAY STREQUAL pkg_config)
 elseif(WAY STREQUAL debian)
   run(bash "${SOURCE}/tests/package/debian_test" "${BUILD}" "${SCRATCH}"
     "${case}" "${series}")
+elseif(WAY STREQUAL cloned)
+  # What is committed, and nothing else, built and run; by a parent that joins
+  # its own sources.
+  set(ENV{GIT_CONFIG_COUNT} 1)  # Whoever the folder belongs to.
+  set(ENV{GIT_CONFIG_KEY_0} safe.directory)
+  set(ENV{GIT_CONFIG_VALUE_0} *)
+  run(git -C "${SOURCE}" rev-parse HEAD)
+  string(STRIP "${output}" commit)
+  run(${configure} ${subfolder_arguments} "-DCMAKE_BUILD_TYPE=${TYPE}"
+    "-DEMMY_CLONED=file://${SOURCE}" "-DEMMY_COMMIT=${commit}"
+    -DCMAKE_UNITY_BUILD=ON)
+  run("${CMAKE_COMMAND}" --build "${SCRATCH}/build" --target consumer)
+  run_program("${SCRATCH}/build/consumer" "${case}")
 else()  # subfolder, fetched
   # Configuring is nearly enough: what is built is the same.
   if(WAY STREQUAL subfolder)
